@@ -1,0 +1,91 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#include "app/commands.h"
+#include "renderer/version.h"
+
+namespace quartet {
+namespace {
+
+constexpr int failed = 1;
+constexpr int wrong_usage = 2;
+
+/// A word as a POSIX shell would have to read it.
+std::string quoted(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string text = "'";
+  for (const char c : word) {
+    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return text + "'";
+}
+
+std::string joined_command_line(int argc, const char* const* argv) {
+  std::string text = "quartet";
+  for (int i = 1; i < argc; ++i) {
+    text += ' ';
+    text += quoted(argv[i]);
+  }
+  return text;
+}
+
+int complain(int code, std::string_view message) {
+  fmt::print(stderr, "quartet: {}\n", message);
+  return code;
+}
+
+/// CLI11's message as one line, with a hint at the help of the command that it is about.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto chosen = app.get_subcommands();
+  const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+  return fmt::format("{} (see quartet{} --help)", text, command);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  const Program program{joined_command_line(argc, argv)};
+  CLI::App app("Quartet: a lab bench for adaptive sampling in path tracing", "quartet");
+  app.set_version_flag("--version", fmt::format("quartet {}", version()));
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Without a command: the figure of scenes/cornell-checker.xml into out/.\n"
+      "Examples:\n"
+      "  quartet figure cornell-checker --out out\n"
+      "  quartet render veach-plates --estimator uniform --spp 64 -o plates.exr\n"
+      "  quartet list");
+  add_figure_command(app, program);
+  add_render_command(app, program);
+  add_list_command(app, program);
+  try {
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      run_default_figure(program);
+    }
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      return app.exit(error);  // help or version, on stdout
+    }
+    return complain(wrong_usage, usage_message(app, error));
+  } catch (const std::invalid_argument& error) {
+    return complain(wrong_usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(failed, "out of memory; a smaller --size or --memory would help");
+  } catch (const std::exception& error) {
+    return complain(failed, error.what());
+  }
+}
+
+}  // namespace quartet

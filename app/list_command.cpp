@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "renderer/adaptive/policy.h"
+#include "renderer/image/color_map.h"
+#include "renderer/image/tone_map.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/trace/integrator.h"
+#include "ui/lab_figure.h"
+
+namespace quartet {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json tables() {
+  ordered_json json;
+  for (const Estimator& row : estimators()) {
+    json["estimators"].push_back(
+        {{"id", row.id},
+         {"label", row.label},
+         {"unit", row.unit},
+         {"source", row.source},
+         {"default", std::vector<float>(row.default_thresholds.begin(),
+                                        row.default_thresholds.begin() + row.channels)},
+         {"default_source", row.threshold_source}});
+  }
+  for (const AllocationRow& row : allocations()) {
+    json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
+  }
+  for (const Integrator& row : integrators()) {
+    json["integrators"].push_back({{"id", row.id}, {"label", row.label},
+                                   {"description", row.description}});
+  }
+  for (const ToneMapRow& row : tone_maps()) {
+    json["tone_maps"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
+  }
+  json["scenes"] = builtin_scenes();
+  return json;
+}
+
+void print_tables() {
+  fmt::print("estimators\n");
+  for (const Estimator& row : estimators()) {
+    fmt::print("  {:<11} {}\n", row.id, row.source);
+    if (row.channels > 0) {
+      fmt::print("  {:<11} default {}, {}\n", "", threshold_text(default_policy(row.key)),
+                 row.threshold_source);
+    }
+  }
+  fmt::print("policies\n");
+  for (const AllocationRow& row : allocations()) {
+    fmt::print("  {:<11} {}\n", row.id, row.source);
+  }
+  fmt::print("integrators\n");
+  for (const Integrator& row : integrators()) {
+    fmt::print("  {:<11} {}\n", row.id, row.description);
+  }
+  fmt::print("tone maps\n");
+  for (const ToneMapRow& row : tone_maps()) {
+    fmt::print("  {:<11} {}\n", row.id, row.source);
+  }
+  fmt::print("scenes\n");
+  for (const std::string& name : builtin_scenes()) {
+    fmt::print("  {}\n", name);
+  }
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, const Program&) {
+  CLI::App* command = app.add_subcommand(
+      "list", "Estimators, policies, integrators, tone maps and scenes, with their sources");
+  const auto as_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *as_json, "As JSON");
+  command->footer("Examples:\n  quartet list\n  quartet list --json");
+  command->callback([as_json] {
+    if (*as_json) {
+      fmt::print("{}\n", tables().dump(2));
+    } else {
+      print_tables();
+    }
+  });
+}
+
+}  // namespace quartet

@@ -1,0 +1,136 @@
+#include "app/run_options.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+
+#include "app/commands.h"
+#include "renderer/scene/load_scene.h"
+
+namespace quartet {
+namespace {
+
+constexpr double gib = 1024.0 * 1024.0 * 1024.0;
+
+/// "960x540"
+void parse_size(const std::string& text, RenderSettings& settings) {
+  const char* const end = text.data() + text.size();
+  int width = 0;
+  int height = 0;
+  const auto [x, width_error] = std::from_chars(text.data(), end, width);
+  bool good = width_error == std::errc() && x != end && *x == 'x';
+  if (good) {
+    const auto [stop, height_error] = std::from_chars(x + 1, end, height);
+    good = height_error == std::errc() && stop == end;
+  }
+  if (!good || width < 1 || height < 1) {
+    throw UsageError(fmt::format(
+        "--size: '{}' is not a size; write width x height in pixels, such as 960x540", text));
+  }
+  settings.width = width;
+  settings.height = height;
+}
+
+/// A picture that cannot fit should be refused before an hour of work, not after.
+void check_memory(const RenderSettings& settings, std::size_t lanes) {
+  // A pixel of a lane (film with variance, error, counts, plan) and of the store with a few samples.
+  constexpr double lane_bytes = 120.0;
+  constexpr double store_bytes = 150.0;
+  const double pixels = double(settings.width) * double(settings.height);
+  const double needed = pixels * (lane_bytes * double(lanes) + store_bytes);
+  const double available = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+  if (needed > available) {
+    throw UsageError(fmt::format(
+        "--size: {}x{} would take about {:.0f} GiB of memory, and this machine has {:.0f} GiB; "
+        "choose a smaller size",
+        settings.width, settings.height, needed / gib, available / gib));
+  }
+}
+
+SceneParameters parse_defines(const std::vector<std::string>& defines) {
+  SceneParameters parameters;
+  for (const std::string& define : defines) {
+    const std::size_t equals = define.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError(fmt::format("-D: '{}' is not a parameter; write name=value", define));
+    }
+    parameters[define.substr(0, equals)] = define.substr(equals + 1);
+  }
+  return parameters;
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+  command.add_option("scene", options.scene, "A Mitsuba 3 XML file, or the name of a built-in scene")
+      ->required();
+  command.add_option("-D", options.defines, "A parameter of the scene file: name=value")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--size", options.size, "Picture size; the scene's own if not given")
+      ->type_name("WxH");
+  command.add_option("--integrator", options.integrator, "How light is found: kajiya or mis")
+      ->capture_default_str();
+  command
+      .add_option("--max-depth", options.max_depth,
+                  "Longest path in segments, 2 is direct light; the scene's own if not given")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_option("--seed", options.seed, "Another seed, other random numbers")
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "0: one a processor")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  command.add_option("--memory", options.memory_gib, "For stored samples, in GiB")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  command.add_option("--policy", options.policy, "How errors become sample counts: vote")
+      ->capture_default_str();
+  command
+      .add_option("--multiplier", options.multiplier,
+                  "vote: extra samples for each vote; 1 is the text of the 2021 report, 0.5 its "
+                  "pictures")
+      ->check(CLI::Range(0.0f, 1000.0f))
+      ->capture_default_str();
+  command.add_flag("--stochastic-rounding", options.stochastic_rounding,
+                   "vote: round multiplier x votes at random instead of down");
+  command.add_option("--max-spp", options.max_spp, "No pixel gets more samples than this")
+      ->check(CLI::Range(1u, 1u << 31))
+      ->capture_default_str();
+}
+
+Run prepare_run(const RunOptions& options, std::size_t lanes) {
+  const IntegratorId integrator = find_integrator(options.integrator).key;
+  find_allocation(options.policy);
+  Scene scene = load_scene(find_scene(options.scene), parse_defines(options.defines));
+  for (const std::string& warning : scene.warnings) {
+    fmt::print(stderr, "quartet: warning: {}\n", warning);
+  }
+  Run run;
+  run.settings = default_settings(scene);
+  run.settings.integrator = integrator;
+  run.settings.seed = options.seed;
+  if (options.max_depth) {
+    run.settings.max_depth = *options.max_depth;
+  }
+  if (!options.size.empty()) {
+    parse_size(options.size, run.settings);
+  }
+  check_memory(run.settings, lanes);
+  run.lab.threads = options.threads;
+  run.lab.memory = std::size_t(options.memory_gib * gib);
+  run.lab.statistics.variance = true;
+  run.scene = std::make_shared<const TraceScene>(std::move(scene));
+  return run;
+}
+
+SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator) {
+  SamplingPolicy policy = default_policy(estimator);
+  policy.allocation.kind = find_allocation(options.policy).key;
+  policy.allocation.multiplier = options.multiplier;
+  policy.allocation.stochastic_rounding = options.stochastic_rounding;
+  policy.max_spp = options.max_spp;
+  return policy;
+}
+
+}  // namespace quartet

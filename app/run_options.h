@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/trace/integrator.h"
+
+namespace quartet {
+
+/// The options that every rendering command has, as given.
+struct RunOptions {
+  std::string scene = "cornell-checker";
+  std::vector<std::string> defines;
+  std::string size;
+  std::string integrator = "mis";
+  std::optional<int> max_depth;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  double memory_gib = 2.0;
+  std::string policy = "vote";
+  float multiplier = 0.5f;
+  bool stochastic_rounding = false;
+  std::uint32_t max_spp = SamplingPolicy{}.max_spp;
+};
+
+/// Adds them to a command.
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// What to render.
+struct Run {
+  std::shared_ptr<const TraceScene> scene;
+  RenderSettings settings;
+  LabOptions lab;
+};
+
+/// Loads the scene, whose warnings go to stderr, and reads the options. `lanes` is how many will
+/// run, for an early look at the memory. Throws UsageError or SceneError.
+Run prepare_run(const RunOptions& options, std::size_t lanes);
+
+/// The policy that the options ask of an estimator, with its default thresholds.
+SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator);
+
+}  // namespace quartet

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "renderer/adaptive/estimator.h"
+
+namespace quartet {
+
+enum class AllocationId { vote };
+
+/// How errors become sample counts; which fields matter is the allocation's affair.
+struct Allocation {
+  AllocationId kind = AllocationId::vote;
+  float multiplier = 0.5f;  ///< vote: extra samples a vote
+  /// vote: round multiplier · votes up or down at random, so that its mean is kept, rather than
+  /// down.
+  bool stochastic_rounding = false;
+};
+
+/// What decides where a lane's samples go. A change replays the lane from its first frame.
+struct SamplingPolicy {
+  EstimatorId estimator = EstimatorId::contrast;
+  Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
+  Allocation allocation;
+  std::uint32_t max_spp = 1u << 16;
+};
+
+/// The policy with an estimator's default thresholds.
+SamplingPolicy default_policy(EstimatorId estimator);
+
+/// What a policy sees at the end of a frame.
+struct PlanInput {
+  int width;
+  int height;
+  std::span<const float> error;          ///< channels × pixels, as the estimator wrote it
+  std::span<const std::uint32_t> taken;  ///< samples each pixel has used, rejected ones included
+  std::uint32_t frame;                   ///< the last one finished, from 1; 0 before the first
+};
+
+/// Samples that each pixel gets in the next frame, and how it came to that.
+struct Plan {
+  std::vector<std::uint16_t> wanted;
+  std::uint64_t total = 0;    ///< sum of `wanted`
+  std::uint64_t refined = 0;  ///< pixels whose own error is above a threshold
+};
+
+/// One row of the table of allocations.
+struct AllocationRow {
+  AllocationId key;
+  std::string_view id;
+  std::string_view label;
+  std::string_view source;
+  void (*plan)(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
+};
+
+std::span<const AllocationRow> allocations();
+const AllocationRow& allocation(AllocationId key);
+/// Throws std::invalid_argument that lists the legal ids.
+const AllocationRow& find_allocation(std::string_view id);
+
+/// Plans the next frame, from nothing but the arguments; `plan` is overwritten.
+void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
+
+}  // namespace quartet

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "renderer/image/image.h"
+
+namespace quartet {
+
+enum class ColorMapId { turbo, viridis, report, coolwarm };
+
+/// One row of the table of colour maps. Knots are sRGB-encoded, in [0, 1], equally spaced from
+/// t = 0 to t = 1, and joined by straight lines.
+struct ColorMapRow {
+  ColorMapId color_map;
+  std::string_view id, label, source;
+  std::span<const glm::vec3> knots;
+};
+
+std::span<const ColorMapRow> color_maps();
+const ColorMapRow& color_map_row(ColorMapId color_map);
+
+/// Throws std::runtime_error with the legal ids.
+ColorMapId color_map_from_id(std::string_view id);
+
+/// Pixels without a number (NaN) and pixels at the sample cap. No colour map contains these.
+inline constexpr Rgba8 kNotANumberColor{0, 0, 0, 255};
+inline constexpr Rgba8 kCapColor{255, 0, 255, 255};
+
+/// The colour at t, clamped to [0, 1]; NaN gives kNotANumberColor.
+Rgba8 sample(ColorMapId color_map, float t);
+
+/// What number has which colour: min is t = 0, max is t = 1. If max <= min, numbers up to min get
+/// the colour of t = 0 and those above it the colour of t = 1.
+struct ColorScale {
+  double min = 0.0;
+  double max = 1.0;
+  ColorMapId color_map = ColorMapId::turbo;
+  bool operator==(const ColorScale&) const = default;
+};
+
+float scale_position(const ColorScale& scale, double value);  ///< t in [0, 1], or NaN
+
+DisplayImage apply(const ScalarImage& numbers, const ColorScale& scale);
+
+/// Samples per pixel as colours. Pixels with `cap` samples or more, the maximum a policy allows,
+/// get kCapColor.
+DisplayImage heatmap(const Image<std::uint32_t>& counts, const ColorScale& scale,
+                     std::optional<std::uint32_t> cap = std::nullopt);
+
+}  // namespace quartet

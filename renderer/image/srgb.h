@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace quartet {
+
+/// The sRGB transfer functions of IEC 61966-2-1:1999, for values in [0, 1].
+double srgb_encode(double linear);
+double srgb_decode(double encoded);
+
+/// Linear light to an 8-bit sRGB value: round(255 srgb_encode(x)) exactly, without a pow.
+///
+/// The result is a step function of x with 255 steps. Cut into 128 equal parts per octave, no part
+/// holds more than one step: one look-up and one comparison give the exact value.
+class Srgb8Encoder {
+ public:
+  Srgb8Encoder();
+
+  /// Values outside [0, 1] are clamped; NaN gives 0.
+  std::uint8_t operator()(float linear) const {
+    const float above = linear > kLowest ? linear : kLowest;  // false for NaN
+    const float x = above < kHighest ? above : kHighest;
+    const std::uint32_t part =
+        (std::bit_cast<std::uint32_t>(x) - std::bit_cast<std::uint32_t>(kLowest)) >> kPartShift;
+    return static_cast<std::uint8_t>(below_[part] + (x >= step_[part] ? 1 : 0));
+  }
+
+ private:
+  static constexpr float kLowest = 0x1p-13f;         // below the first step, 0.5/255/12.92
+  static constexpr float kHighest = 0x1.fffffep-1f;  // above the last step
+  static constexpr int kPartShift = 23 - 7;          // a part is 2^-7 of an octave
+  static constexpr std::size_t kParts = 13 * 128;    // 13 octaves from 2^-13 to 1
+
+  std::array<float, kParts> step_;
+  std::array<std::uint8_t, kParts> below_;
+};
+
+/// The one encoder of the process. Take the reference once, outside of loops.
+const Srgb8Encoder& srgb8_encoder();
+
+}  // namespace quartet

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace quartet {
+
+struct Tick {
+  double value;
+  std::string label;
+  bool operator==(const Tick&) const = default;
+};
+
+/// About `wanted` round numbers inside [min, max]: multiples of 1, 2 or 5 times a power of ten
+/// (Heckbert, "Nice Numbers for Graph Labels", Graphics Gems 1990). One tick if min = max; none
+/// if a bound is not finite or min > max.
+std::vector<Tick> linear_ticks(double min, double max, int wanted);
+
+/// The same with min and max themselves as first and last tick, for colour bars; round numbers
+/// nearer to an end than half a step give way to it.
+std::vector<Tick> ticks_with_ends(double min, double max, int wanted);
+
+/// Four significant digits, no trailing zeros: 71, 0.005, 31.27, 2.5e7.
+std::string format_number(double value);
+
+}  // namespace quartet

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <pugixml.hpp>
+
+#include "renderer/scene/scene_builder.h"
+
+namespace quartet {
+
+/// An <emitter> inside a shape. A type that is not known there is left out with a warning, as is a
+/// light whose radiance is 0. Throws SceneError.
+void read_shape_light(SceneBuilder& builder, pugi::xml_node node, Shape& shape);
+
+/// An <emitter> of the scene itself; the same holds.
+void read_scene_light(SceneBuilder& builder, pugi::xml_node node);
+
+}  // namespace quartet

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace quartet {
+
+/// The parts of `text` between commas and white space.
+std::vector<std::string_view> split(std::string_view text);
+
+/// All of `text` as one finite number; nothing if it is anything else.
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace quartet

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+
+#include "renderer/trace/camera_rays.h"
+#include "renderer/trace/trace_scene.h"
+
+namespace quartet {
+
+enum class IntegratorId { kajiya, mis };
+
+/// Everything that decides the value of a sample, beside the scene. A change makes other samples, so
+/// it empties the store.
+struct RenderSettings {
+  Camera camera;
+  int width = 0;
+  int height = 0;
+  int max_depth = std::numeric_limits<int>::max();  ///< segments of a path
+  IntegratorId integrator = IntegratorId::mis;
+  std::uint64_t seed = 0;
+};
+
+/// The settings that a scene file asks for.
+RenderSettings default_settings(const Scene& scene);
+
+/// One row of the table of integrators.
+struct Integrator {
+  IntegratorId key;
+  std::string_view id;     ///< on the command line and in files
+  std::string_view label;  ///< for people
+  std::string_view description;
+  /// Writes the radiance of samples first, first + 1, … of pixel (x, y), counted from the top left.
+  void (*trace)(const TraceScene& scene, const RenderSettings& settings, const CameraRays& camera,
+                int x, int y, std::uint32_t first, std::span<glm::vec3> radiance);
+};
+
+std::span<const Integrator> integrators();
+const Integrator& integrator(IntegratorId key);
+/// Throws std::invalid_argument that lists the legal ids.
+const Integrator& find_integrator(std::string_view id);
+
+}  // namespace quartet

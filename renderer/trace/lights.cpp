@@ -1,0 +1,253 @@
+#include "renderer/trace/lights.h"
+
+#include <algorithm>
+
+#include "renderer/image/image.h"
+#include "renderer/trace/color_at.h"
+#include "renderer/trace/frame.h"
+
+namespace quartet {
+namespace {
+
+/// Whether a sphere light is sampled over its whole area, because the point lies inside it or so
+/// close to it that the cone of directions would lose its digits.
+bool sampled_by_area(float distance2, float radius) {
+  return distance2 <= radius * radius * 1.0002f;
+}
+
+/// 1 − cos of the half angle under which a sphere is seen, in a form that keeps its digits for small
+/// angles.
+float one_minus_cos_cap(float distance2, float radius) {
+  const float sin2 = radius * radius / distance2;
+  return sin2 < 1e-3f ? 0.5f * sin2 * (1.0f + 0.25f * sin2) : 1.0f - std::sqrt(1.0f - sin2);
+}
+
+// A shadow ray stops short of the light by more than the rounding error of both ends.
+constexpr float short_of_light = 1.0f - 1e-4f;
+
+}  // namespace
+
+Lights::Lights(const Scene& scene, glm::vec3 bounds_min, glm::vec3 bounds_max)
+    : scene_(&scene), first_of_shape_(scene.shapes.size(), -1) {
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    const Shape& shape = scene.shapes[i];
+    if (shape.emits && luminance(average_color(scene, shape.radiance)) > 0.0f) {
+      first_of_shape_[i] = int(lights_.size());
+      std::visit([&](const auto& geometry) { add(std::uint32_t(i), geometry); }, shape.geometry);
+    }
+  }
+  if (luminance(scene.environment) > 0.0f) {
+    environment_ = int(lights_.size());
+    lights_.push_back({.kind = Kind::environment});
+  }
+  choose_by_power(bounds_min, bounds_max);
+}
+
+void Lights::add(std::uint32_t shape_index, const Mesh& mesh) {
+  const auto flat = [&](Kind kind, std::size_t a, std::size_t b, std::size_t c, std::uint32_t i) {
+    Light light{.kind = kind, .origin = mesh.positions[a], .shape = shape_index, .primitive = i};
+    light.edge1 = mesh.positions[b] - light.origin;
+    light.edge2 = mesh.positions[c] - light.origin;
+    const glm::vec3 normal = glm::cross(light.edge1, light.edge2);
+    light.area = glm::length(normal) * (kind == Kind::triangle ? 0.5f : 1.0f);
+    light.normal = glm::normalize(normal);
+    lights_.push_back(light);
+  };
+  if (mesh.parallelogram) {
+    flat(Kind::parallelogram, 0, 1, 3, 0);
+    return;
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3 t = mesh.triangles[i];
+    flat(Kind::triangle, t.x, t.y, t.z, std::uint32_t(i));
+  }
+}
+
+void Lights::add(std::uint32_t shape_index, const Sphere& sphere) {
+  lights_.push_back({.kind = Kind::sphere,
+                     .origin = sphere.center,
+                     .radius = sphere.radius,
+                     .area = 4.0f * pi * sphere.radius * sphere.radius,
+                     .shape = shape_index});
+}
+
+void Lights::add(std::uint32_t shape_index, const Disk& disk) {
+  lights_.push_back({.kind = Kind::disk,
+                     .origin = disk.center,
+                     .edge1 = disk.radius * disk.axis_u,
+                     .edge2 = disk.radius * glm::cross(disk.normal, disk.axis_u),
+                     .normal = disk.normal,
+                     .radius = disk.radius,
+                     .area = pi * disk.radius * disk.radius,
+                     .shape = shape_index});
+}
+
+void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
+  const float scene_radius = 0.5f * glm::length(bounds_max - bounds_min);
+  std::vector<double> power;
+  double total = 0.0;
+  for (const Light& light : lights_) {
+    // A flat or spherical light sends π A L; the environment sends π R² L through the scene from
+    // each of 4π directions.
+    const double p =
+        light.kind == Kind::environment
+            ? 4.0 * pi * pi * scene_radius * scene_radius * luminance(scene_->environment)
+            : pi * light.area *
+                  luminance(average_color(*scene_, scene_->shapes[light.shape].radiance));
+    power.push_back(p);
+    total += p;
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    // An environment around nothing has no power by this measure, yet must be found.
+    lights_[i].probability =
+        total > 0.0 ? float(power[i] / total) : 1.0f / float(lights_.size());
+    sum += double(lights_[i].probability);
+    cdf_.push_back(float(sum));
+  }
+  if (!cdf_.empty()) {
+    cdf_.back() = 1.0f;
+  }
+}
+
+LightSample Lights::sample(glm::vec3 from, float u_select, float u, float v) const {
+  LightSample s{};
+  if (lights_.empty()) {
+    return s;
+  }
+  const auto chosen = std::upper_bound(cdf_.begin(), cdf_.end() - 1, u_select);
+  const Light& light = lights_[std::size_t(chosen - cdf_.begin())];
+  switch (light.kind) {
+    case Kind::environment:
+      s.direction = square_to_uniform_cap(u, v, -1.0f);
+      s.distance = std::numeric_limits<float>::infinity();
+      s.radiance = scene_->environment;
+      s.pdf = 1.0f / (4.0f * pi);
+      break;
+    case Kind::sphere:
+      sample_sphere(light, from, u, v, s);
+      break;
+    default:
+      sample_flat(light, from, u, v, s);
+  }
+  s.pdf *= light.probability;
+  return s;
+}
+
+void Lights::sample_flat(const Light& light, glm::vec3 from, float u, float v,
+                         LightSample& s) const {
+  Hit hit{};
+  hit.shape = light.shape;
+  hit.primitive = light.primitive;
+  glm::vec2 p(u, v);
+  if (light.kind == Kind::triangle) {
+    // Folding the square keeps the stratification better than the square root: Heitz, "A
+    // Low-Distortion Map Between Triangle and Square", 2019.
+    p = v > u ? glm::vec2(0.5f * u, v - 0.5f * u) : glm::vec2(u - 0.5f * v, 0.5f * v);
+    hit.u = p.x;
+    hit.v = p.y;
+  } else if (light.kind == Kind::disk) {
+    p = square_to_disk(u, v);
+  } else if (u >= v) {
+    // The parallelogram's triangles (0,1,2) and (0,2,3), with barycentrics of their last two.
+    hit.u = u - v;
+    hit.v = v;
+  } else {
+    hit.primitive = 1;
+    hit.u = u;
+    hit.v = v - u;
+  }
+  const glm::vec3 to_light = light.origin + p.x * light.edge1 + p.y * light.edge2 - from;
+  const float distance2 = glm::dot(to_light, to_light);
+  const float distance = std::sqrt(distance2);
+  s.direction = to_light / distance;
+  s.distance = distance * short_of_light;
+  const float cos_light = -glm::dot(s.direction, light.normal);
+  if (cos_light <= 0.0f || distance2 == 0.0f) {
+    return;
+  }
+  s.radiance = radiance_at(light, from + to_light, hit);
+  s.pdf = distance2 / (cos_light * light.area);
+}
+
+void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
+                           LightSample& s) const {
+  const Sphere& sphere = std::get<Sphere>(scene_->shapes[light.shape].geometry);
+  const glm::vec3 to_center = light.origin - from;
+  const float distance2 = glm::dot(to_center, to_center);
+  glm::vec3 outward;
+  if (sampled_by_area(distance2, light.radius)) {
+    outward = square_to_uniform_cap(u, v, -1.0f);
+    const glm::vec3 to_light = to_center + light.radius * outward;
+    const float length2 = glm::dot(to_light, to_light);
+    const float length = std::sqrt(length2);
+    s.direction = to_light / length;
+    s.distance = length * short_of_light;
+    const float cos_light = std::abs(glm::dot(s.direction, outward));
+    if (cos_light == 0.0f) {
+      return;
+    }
+    s.pdf = length2 / (cos_light * light.area);
+  } else {
+    // Uniform over the cone of directions that meet the sphere: Shirley, Wang and Zimmerman, "Monte
+    // Carlo Techniques for Direct Lighting Calculations", TOG 15(1), 1996.
+    const float distance = std::sqrt(distance2);
+    const float cap = one_minus_cos_cap(distance2, light.radius);
+    const float one_minus_cos = u * cap;
+    const float sin2 = one_minus_cos * (2.0f - one_minus_cos);
+    const float sine = std::sqrt(sin2);
+    const float phi = 2.0f * pi * v;
+    const Frame frame(to_center / distance);
+    s.direction = frame.to_world(
+        {sine * std::cos(phi), sine * std::sin(phi), 1.0f - one_minus_cos});
+    const float half_chord2 = light.radius * light.radius - distance2 * sin2;
+    const float near = distance * (1.0f - one_minus_cos) - std::sqrt(std::max(0.0f, half_chord2));
+    outward = (near * s.direction - to_center) / light.radius;
+    // At the silhouette `near` loses half its digits; what matters is that nothing but the light
+    // itself lies in the part left out.
+    s.distance = std::max(0.0f, near * short_of_light - 1e-3f * light.radius);
+    s.pdf = 1.0f / (2.0f * pi * cap);
+  }
+  const glm::vec3 front = sphere.flip_normals ? -outward : outward;
+  if (glm::dot(s.direction, front) >= 0.0f) {
+    return;
+  }
+  s.radiance = radiance_at(light, light.origin + light.radius * outward, {});
+}
+
+float Lights::pdf(const Surface& surface, glm::vec3 from, glm::vec3 direction,
+                  float distance) const {
+  const int first = first_of_shape_[surface.shape];
+  if (first < 0) {
+    return 0.0f;
+  }
+  const Light* light = &lights_[std::size_t(first)];
+  if (light->kind == Kind::triangle) {
+    light += surface.primitive;
+  }
+  if (light->kind == Kind::sphere) {
+    const glm::vec3 to_center = light->origin - from;
+    const float distance2 = glm::dot(to_center, to_center);
+    if (!sampled_by_area(distance2, light->radius)) {
+      return light->probability / (2.0f * pi * one_minus_cos_cap(distance2, light->radius));
+    }
+  }
+  const float cos_light = std::abs(glm::dot(direction, surface.normal));
+  return cos_light > 0.0f ? light->probability * distance * distance / (cos_light * light->area)
+                          : 0.0f;
+}
+
+float Lights::environment_pdf() const {
+  return environment_ < 0
+             ? 0.0f
+             : lights_[std::size_t(environment_)].probability * (1.0f / (4.0f * pi));
+}
+
+glm::vec3 Lights::radiance_at(const Light& light, glm::vec3 position, const Hit& hit) const {
+  const Shape& shape = scene_->shapes[light.shape];
+  return shape.radiance.texture == Color::no_texture
+             ? shape.radiance.value
+             : color_at(*scene_, shape.radiance, uv_at(shape, position, hit));
+}
+
+}  // namespace quartet

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+#include "renderer/trace/surface.h"
+
+namespace quartet {
+
+/// A direction towards a light, seen from a point.
+struct LightSample {
+  glm::vec3 direction;  ///< unit length
+  float distance;       ///< free way needed along it, already short of the light itself
+  glm::vec3 radiance;   ///< zero where the light does not shine at the point
+  float pdf;            ///< 1/sr, with the probability of choosing this light
+};
+
+/// All emitters of a scene, chosen with a probability proportional to their power.
+class Lights {
+ public:
+  /// `scene` is referred to, and must outlive this.
+  Lights(const Scene& scene, glm::vec3 bounds_min, glm::vec3 bounds_max);
+
+  /// `u_select` chooses the light, (u, v) the point on it.
+  LightSample sample(glm::vec3 from, float u_select, float u, float v) const;
+
+  /// Density (1/sr) with which sample() finds the point `surface` of an emitting shape from `from`;
+  /// `direction` is the unit vector there and `distance` the way.
+  float pdf(const Surface& surface, glm::vec3 from, glm::vec3 direction, float distance) const;
+  /// The same for a direction that meets no shape.
+  float environment_pdf() const;
+
+ private:
+  enum class Kind { parallelogram, triangle, sphere, disk, environment };
+
+  struct Light {
+    Kind kind;
+    glm::vec3 origin{0.0f};     // a corner, or the centre
+    glm::vec3 edge1{0.0f};      // of a disk: two radii at right angles
+    glm::vec3 edge2{0.0f};
+    glm::vec3 normal{0.0f};     // of flat lights
+    float radius = 0.0f;
+    float area = 0.0f;
+    std::uint32_t shape = 0;
+    std::uint32_t primitive = 0;
+    float probability = 0.0f;
+  };
+
+  void add(std::uint32_t shape_index, const Mesh& mesh);
+  void add(std::uint32_t shape_index, const Sphere& sphere);
+  void add(std::uint32_t shape_index, const Disk& disk);
+  void choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max);
+  void sample_sphere(const Light& light, glm::vec3 from, float u, float v, LightSample& s) const;
+  void sample_flat(const Light& light, glm::vec3 from, float u, float v, LightSample& s) const;
+  glm::vec3 radiance_at(const Light& light, glm::vec3 position, const Hit& hit) const;
+
+  const Scene* scene_;
+  std::vector<Light> lights_;
+  std::vector<float> cdf_;          // one a light, ends in 1
+  std::vector<int> first_of_shape_; // first light of a shape; −1 where it does not emit
+  int environment_ = -1;
+};
+
+}  // namespace quartet

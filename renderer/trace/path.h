@@ -1,0 +1,128 @@
+#pragma once
+
+#include "renderer/trace/sampler.h"
+#include "renderer/trace/trace_scene.h"
+
+namespace quartet {
+
+/// What may watch a path being traced. This one watches nothing and costs nothing.
+struct NoObserver {
+  void closest_hit(const Ray&) {}
+  void occluded(const Ray&) {}
+};
+
+namespace detail {
+
+// Paths that end before their third vertex cost more in noise than they save in rays.
+inline constexpr int first_roulette_depth = 3;
+// Every path must end, between perfect mirrors too.
+inline constexpr float max_survival = 0.95f;
+
+/// Veach 1997, section 9.2.4, with β = 2. A ratio, because squared densities leave the range of
+/// float for small lights far away.
+inline float power_heuristic(float pdf, float other) {
+  const float ratio = other / pdf;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+/// A direction must lie on the same side of the shading and of the geometric surface, or light would
+/// leak through the triangles of a smooth mesh.
+inline bool leaks(const Surface& surface, glm::vec3 direction) {
+  return glm::dot(direction, surface.normal) * glm::dot(direction, surface.shading_normal) < 0.0f;
+}
+
+/// Direct light at a vertex, found by sampling a light; its share of the power heuristic.
+template <class Observer>
+glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Frame& frame,
+                     const Bsdf& bsdf, glm::vec3 wo, const Sampler::Draws& draws,
+                     Observer& observer) {
+  const LightSample light = scene.lights().sample(surface.position, draws[4], draws[0], draws[1]);
+  if (light.radiance == glm::vec3(0.0f) || leaks(surface, light.direction)) {
+    return glm::vec3(0.0f);
+  }
+  const BsdfValue value = evaluate(bsdf, wo, frame.to_local(light.direction));
+  if (value.f_cos == glm::vec3(0.0f)) {
+    return glm::vec3(0.0f);
+  }
+  const Ray shadow{offset_origin(surface, light.direction), light.direction, light.distance};
+  observer.occluded(shadow);
+  if (scene.accel().occluded(shadow)) {
+    return glm::vec3(0.0f);
+  }
+  return light.radiance * value.f_cos * (power_heuristic(light.pdf, value.pdf) / light.pdf);
+}
+
+}  // namespace detail
+
+/// The radiance that arrives along `ray`, an unbiased estimate by unidirectional path tracing of the
+/// rendering equation (Kajiya 1986). With `NextEvent`, each diffuse or glossy vertex also samples a
+/// light, and both ways of finding light are weighted by the power heuristic; without it, light is
+/// found by BSDF sampling alone. `max_depth` counts segments: 1 shows lights only.
+template <bool NextEvent, class Observer>
+glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max_depth,
+                     Observer& observer) {
+  glm::vec3 radiance(0.0f);
+  glm::vec3 throughput(1.0f);
+  float eta_scale = 1.0f;
+  // Of the direction that `ray` was sampled with; 0 where no light sample could have found it.
+  float bsdf_pdf = 0.0f;
+  glm::vec3 previous = ray.origin;
+  for (int depth = 1;; ++depth) {
+    Hit hit;
+    observer.closest_hit(ray);
+    if (!scene.accel().closest_hit(ray, hit)) {
+      const float weight =
+          NextEvent && bsdf_pdf > 0.0f
+              ? detail::power_heuristic(bsdf_pdf, scene.lights().environment_pdf())
+              : 1.0f;
+      return radiance + weight * throughput * scene.scene().environment;
+    }
+    const Surface surface = scene.surface(ray, hit);
+    const glm::vec3 emitted = scene.emitted(surface, ray.direction);
+    if (emitted != glm::vec3(0.0f)) {
+      const float weight =
+          NextEvent && bsdf_pdf > 0.0f
+              ? detail::power_heuristic(bsdf_pdf, scene.lights().pdf(surface, previous,
+                                                                     ray.direction, hit.t))
+              : 1.0f;
+      radiance += weight * throughput * emitted;
+    }
+    if (depth >= max_depth) {
+      return radiance;
+    }
+
+    const Bsdf bsdf = scene.bsdf(surface);
+    const Frame frame(surface.shading_normal);
+    const glm::vec3 wo = frame.to_local(-ray.direction);
+    const Sampler::Draws& draws = sampler.next();
+    if (NextEvent && !is_specular(bsdf)) {
+      radiance +=
+          throughput * detail::next_event(scene, surface, frame, bsdf, wo, draws, observer);
+    }
+
+    const BsdfSample next = sample(bsdf, wo, draws[5], draws[2], draws[3]);
+    throughput *= next.weight;
+    if (throughput == glm::vec3(0.0f)) {
+      return radiance;
+    }
+    const glm::vec3 direction = frame.to_world(next.wi);
+    if (detail::leaks(surface, direction)) {
+      return radiance;
+    }
+    eta_scale *= next.eta_scale;
+    if (depth >= detail::first_roulette_depth) {
+      const float survival =
+          std::min(detail::max_survival,
+                   eta_scale * std::max({throughput.x, throughput.y, throughput.z}));
+      if (draws[6] >= survival) {
+        return radiance;
+      }
+      throughput /= survival;
+    }
+    bsdf_pdf = next.specular ? 0.0f : next.pdf;
+    previous = surface.position;
+    ray = Ray{offset_origin(surface, direction), direction};
+  }
+}
+
+}  // namespace quartet

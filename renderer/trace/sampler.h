@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace quartet {
+
+/// Random numbers of one sample: a pure function of (seed, pixel, index, vertex, dimension).
+///
+/// Every pair of dimensions is a (0,2)-sequence (Sobol's first two dimensions) with its indices
+/// shuffled and its values scrambled in Owen's way by a hash: Burley, "Practical Hash-based Owen
+/// Scrambling", JCGT 9(4), 2020, with Vegdahl's constants for the Laine-Karras hash. Each 2^k
+/// aligned samples of a pixel are a (0, k, 2)-net in every pair; pairs, pixels and seeds are
+/// independent.
+class Sampler {
+ public:
+  static constexpr int dimensions_per_vertex = 8;
+
+  /// What a path vertex draws; each number in [0, 1). Neighbours 0-1, 2-3, 4-5, 6-7 are jointly
+  /// stratified over the samples of a pixel.
+  using Draws = float[dimensions_per_vertex];
+
+  Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index)
+      : key_(mix(mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu)) +
+                 pixel * 0x9e3779b9u)),
+        reversed_index_(reverse_bits(index)) {}
+
+  /// The draws of the next vertex; the first call is the camera's. Valid until the next call.
+  const Draws& next() {
+    if (vertex_ % vertices_per_block == 0) {
+      generate();
+    }
+    return block_[vertex_++ % vertices_per_block];
+  }
+
+ private:
+  // Two vertices at a time: one leaves the vector unit waiting for its multiplications.
+  static constexpr int vertices_per_block = 2;
+  static constexpr int lanes = vertices_per_block * dimensions_per_vertex;
+
+  /// A bijection of 32 bits with every output bit depending on every input bit (Wellons' lowbias32,
+  /// improved constants).
+  static constexpr std::uint32_t mix(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x21f0aaadu;
+    x ^= x >> 15;
+    x *= 0x735a2d97u;
+    x ^= x >> 15;
+    return x;
+  }
+
+  /// Each bit flipped by a hash of the bits below it: Owen scrambling of a bit-reversed number.
+  static constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t key) {
+    x ^= x * 0x3d20adeau;
+    x += key;
+    x *= (key >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+  }
+
+  static constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+  }
+
+  /// Sobol's second generator matrix (Pascal's triangle modulo 2) times x, with the result bit
+  /// reversed like x.
+  static constexpr std::uint32_t pascal(std::uint32_t x) {
+    x ^= (x & 0xaaaaaaaau) >> 1;
+    x ^= (x & 0xccccccccu) >> 2;
+    x ^= (x & 0xf0f0f0f0u) >> 4;
+    x ^= (x & 0xff00ff00u) >> 8;
+    x ^= x >> 16;
+    return x;
+  }
+
+  void generate() {
+    const std::uint32_t base = key_ + std::uint32_t(vertex_) * dimensions_per_vertex * 0x9e3779b9u;
+    std::uint32_t bits[lanes];
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t pair_key = mix(base + (lane / 2) * 0x3c6ef372u + 0x5bd1e995u);
+      const std::uint32_t lane_key = mix(base + lane * 0x9e3779b9u);
+      const std::uint32_t shuffled = reverse_bits(laine_karras(reversed_index_, pair_key));
+      const std::uint32_t sobol = (lane & 1u) ? pascal(shuffled) : shuffled;
+      bits[lane] = reverse_bits(laine_karras(sobol, lane_key));
+    }
+    float* draws = &block_[0][0];
+    for (int lane = 0; lane < lanes; ++lane) {
+      draws[lane] = float(std::int32_t(bits[lane] >> 8)) * 0x1p-24f;
+    }
+  }
+
+  std::uint32_t key_;
+  std::uint32_t reversed_index_;
+  int vertex_ = 0;
+  alignas(64) Draws block_[vertices_per_block];
+};
+
+}  // namespace quartet
