@@ -106,10 +106,8 @@ build() {
   die "could not build build/$1 (whole log: $log)"
 }
 
-# prepare PRESET TARGET SECTION...: all of the above, by one process at a time.
-prepare() {
-  local preset=$1 target=$2
-  shift 2
+# with_lock COMMAND...: one process at a time installs or builds.
+with_lock() {
   mkdir -p "$root/build" 2>/dev/null || die "cannot create $root/build"
   [[ -w $root/build ]] || die "cannot write to $root/build"
   exec 9>"$root/build/lock"
@@ -118,9 +116,16 @@ prepare() {
     flock 9
   fi
   trap 'exit 130' INT
+  "$@"
+  trap - INT
+  exec 9>&-
+}
+
+# prepare PRESET TARGET SECTION...: all of the above, after which the target is up to date.
+prepare() {
+  local preset=$1 target=$2
+  shift 2
   install_packages "$@"
   configure "$preset"
   build "$preset" "$target"
-  trap - INT
-  exec 9>&-
 }

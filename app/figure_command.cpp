@@ -95,9 +95,8 @@ void run_figure(const FigureOptions& options, const Program& program) {
           run.lab);
   run_frames(lab, options.frames);
 
-  const std::string title =
-      fmt::format("{}, {} frames at {}×{}", run.scene->scene().name, options.frames,
-                  run.settings.width, run.settings.height);
+  const std::string title = fmt::format("{}, {} frames at {}×{}", run.scene->scene().name,
+                                        options.frames, run.settings.width, run.settings.height);
   const std::string footer = fmt::format("quartet {} · {}", version(), program.command_line);
   const Figure images = image_figure(lab.lanes(), view, title, footer);
   write_figure_png(images, files.stage("images.png"));

@@ -32,8 +32,8 @@ ordered_json tables() {
     json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
   }
   for (const Integrator& row : integrators()) {
-    json["integrators"].push_back({{"id", row.id}, {"label", row.label},
-                                   {"description", row.description}});
+    json["integrators"].push_back(
+        {{"id", row.id}, {"label", row.label}, {"description", row.description}});
   }
   for (const ToneMapRow& row : tone_maps()) {
     json["tone_maps"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});

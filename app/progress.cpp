@@ -25,7 +25,8 @@ std::string bar(double fraction) {
 
 }  // namespace
 
-Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {}
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {
+}
 
 Progress::~Progress() {
   if (bar_shown_) {
@@ -35,8 +36,8 @@ Progress::~Progress() {
 
 void Progress::update(double fraction, std::string_view detail) {
   const auto now = Clock::now();
-  const auto interval = terminal_ ? Clock::duration(std::chrono::milliseconds(100))
-                                  : Clock::duration(seconds(5));
+  const auto interval =
+      terminal_ ? Clock::duration(std::chrono::milliseconds(100)) : Clock::duration(seconds(5));
   if (now - start_ < seconds(1) || now - last_ < interval) {
     return;
   }

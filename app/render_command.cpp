@@ -109,9 +109,9 @@ void run_render(const RenderOptions& options, const Program& program) {
       if (!lab.run_frame(interrupt.token()) || interrupt.token().stop_requested()) {
         throw Interrupted();
       }
-      progress.update(stop.progress(lane),
-                      fmt::format("frame {}, {:.1f} spp", lane.frame(),
-                                  double(lane.history().back().samples) / double(lane.film().size())));
+      progress.update(stop.progress(lane), fmt::format("frame {}, {:.1f} spp", lane.frame(),
+                                                       double(lane.history().back().samples) /
+                                                           double(lane.film().size())));
     }
   }
   write_output(output, program, run, lane, files);

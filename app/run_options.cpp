@@ -34,7 +34,8 @@ void parse_size(const std::string& text, RenderSettings& settings) {
 
 /// A picture that cannot fit should be refused before an hour of work, not after.
 void check_memory(const RenderSettings& settings, std::size_t lanes) {
-  // A pixel of a lane (film with variance, error, counts, plan) and of the store with a few samples.
+  // A pixel of a lane (film with variance, error, counts, plan) and of the store with a few
+  // samples.
   constexpr double lane_bytes = 120.0;
   constexpr double store_bytes = 150.0;
   const double pixels = double(settings.width) * double(settings.height);
@@ -63,7 +64,8 @@ SceneParameters parse_defines(const std::vector<std::string>& defines) {
 }  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& options) {
-  command.add_option("scene", options.scene, "A Mitsuba 3 XML file, or the name of a built-in scene")
+  command
+      .add_option("scene", options.scene, "A Mitsuba 3 XML file, or the name of a built-in scene")
       ->required();
   command.add_option("-D", options.defines, "A parameter of the scene file: name=value")
       ->type_name("NAME=VALUE")

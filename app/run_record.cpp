@@ -33,8 +33,8 @@ ordered_json policy_json(const SamplingPolicy& policy) {
   const Estimator& row = estimator(policy.estimator);
   ordered_json json;
   json["estimator"] = row.id;
-  json["thresholds"] = std::vector<float>(policy.thresholds.begin(),
-                                          policy.thresholds.begin() + row.channels);
+  json["thresholds"] =
+      std::vector<float>(policy.thresholds.begin(), policy.thresholds.begin() + row.channels);
   json["unit"] = row.unit;
   json["policy"] = allocation(policy.allocation.kind).id;
   json["multiplier"] = policy.allocation.multiplier;
@@ -116,11 +116,11 @@ std::string csv_record(const Run& run, const Lab& lab) {
   for (const Lane& lane : lab.lanes()) {
     const SamplingPolicy& policy = lane.policy();
     for (const FrameRecord& record : lane.history()) {
-      const std::string row = fmt::format(
-          "{},{},{},{},{},{},{:.6f},{},{:.6f}", run.scene->scene().name,
-          estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
-          thresholds_text(policy), run.settings.seed, record.frame, record.seconds, record.samples,
-          mean_spp(lane, record));
+      const std::string row =
+          fmt::format("{},{},{},{},{},{},{:.6f},{},{:.6f}", run.scene->scene().name,
+                      estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
+                      thresholds_text(policy), run.settings.seed, record.frame, record.seconds,
+                      record.samples, mean_spp(lane, record));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},refined_share,{:.6f}\n", row,
                          double(record.refined) / double(lane.film().size()));

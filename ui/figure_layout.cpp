@@ -120,7 +120,8 @@ class Builder {
     int image_height = 0;
     const auto for_each_panel = [&](auto place) {
       for (int column = 0; column < columns_; ++column) {
-        const std::size_t i = static_cast<std::size_t>(row * columns_ + column);
+        const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                       static_cast<std::size_t>(column);
         if (i < figure_.panels.size()) {
           y_ = top;
           place(figure_.panels[i], margin_ + column * (cell_width_ + gap_));

@@ -1,7 +1,5 @@
 #include "ui/figure_text.h"
 
-#include <cairo.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

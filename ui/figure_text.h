@@ -1,13 +1,12 @@
 #pragma once
 
+#include <cairo.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ui/figure_layout.h"
-
-// Cairo's types, so that only the files that paint include its header.
-typedef struct _cairo cairo_t;
 
 namespace quartet {
 

@@ -15,9 +15,9 @@ FigurePanel panel(const Lane& lane, DisplayImage image) {
   std::string numbers = threshold_text(lane.policy());
   if (!lane.history().empty()) {
     const FrameRecord& last = lane.history().back();
-    numbers += fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
-                           double(last.samples) / double(lane.film().size()), last.max_spp,
-                           last.seconds);
+    numbers +=
+        fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
+                    double(last.samples) / double(lane.film().size()), last.max_spp, last.seconds);
   }
   panel.lines.push_back(std::move(numbers));
   if (const std::uint64_t rejected = lane.film().total_rejected(); rejected > 0) {
@@ -35,8 +35,8 @@ Figure grid(std::string title, std::string footer, std::size_t panels) {
 }
 
 std::string cap_label(const Lane& lane) {
-  const bool capped = !lane.history().empty() &&
-                      lane.history().back().max_spp >= lane.policy().max_spp;
+  const bool capped =
+      !lane.history().empty() && lane.history().back().max_spp >= lane.policy().max_spp;
   return capped ? fmt::format("at the maximum of {} spp", lane.policy().max_spp) : "";
 }
 

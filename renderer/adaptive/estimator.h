@@ -17,9 +17,9 @@ using Thresholds = std::array<float, 3>;
 /// command line, file headers and tests walk the table.
 struct Estimator {
   EstimatorId key;
-  std::string_view id;     ///< on the command line and in files
-  std::string_view label;  ///< for people
-  std::string_view unit;   ///< of the error and its thresholds
+  std::string_view id;                ///< on the command line and in files
+  std::string_view label;             ///< for people
+  std::string_view unit;              ///< of the error and its thresholds
   std::string_view source;            ///< of the formula
   std::string_view threshold_source;  ///< of the default thresholds
   /// Errors a pixel: 3 (R, G, B), 1, or 0 for a method that never asks for more.

@@ -84,8 +84,8 @@ SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
                            const RenderSettings& settings) {
   const CameraRays camera(settings.camera, settings.width, settings.height);
   const auto trace = integrator(settings.integrator).trace;
-  return [scene = std::move(scene), settings, camera, trace](
-             int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
+  return [scene = std::move(scene), settings, camera, trace](int x, int y, std::uint32_t first,
+                                                             std::span<glm::vec3> radiance) {
     trace(*scene, settings, camera, x, y, first, radiance);
   };
 }

@@ -14,9 +14,9 @@
 namespace quartet {
 
 struct LabOptions {
-  int threads = 0;                                  ///< 0: one a processor
-  std::size_t memory = std::size_t(2) << 30;        ///< of the sample store, bytes
-  FilmStatistics statistics;                        ///< beside what the estimators need
+  int threads = 0;                            ///< 0: one a processor
+  std::size_t memory = std::size_t(2) << 30;  ///< of the sample store, bytes
+  FilmStatistics statistics;                  ///< beside what the estimators need
 };
 
 /// Several lanes over one store of samples.
@@ -32,9 +32,9 @@ class Lab {
   /// The frame that the lanes furthest behind have finished.
   std::uint32_t frame() const;
 
-  /// Advances the lanes that are furthest behind by one frame, tracing what the store lacks. Returns
-  /// false if `stop` ended it early: then no lane has moved, and what was traced is kept. A store
-  /// without samples is filled with its first ones whatever `stop` says.
+  /// Advances the lanes that are furthest behind by one frame, tracing what the store lacks.
+  /// Returns false if `stop` ended it early: then no lane has moved, and what was traced is kept. A
+  /// store without samples is filled with its first ones whatever `stop` says.
   bool run_frame(std::stop_token stop = {});
 
   /// Gives a lane another policy: it starts again at frame 0, out of stored samples.

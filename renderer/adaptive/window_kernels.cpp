@@ -12,8 +12,8 @@
 namespace quartet {
 namespace {
 
-// Below this mean luminance a reciprocal would leave the range of float; the error, which is smaller
-// still, is taken as 0.
+// Below this mean luminance a reciprocal would leave the range of float; the error, which is
+// smaller still, is taken as 0.
 constexpr float darkest = 1e-37f;
 
 /// Lowest and highest of each value and its left and right neighbours.
@@ -104,8 +104,8 @@ struct WindowRows {
   const float* centre;
 };
 
-/// The mean of a window, with the neighbours' deviations from its centre: differences of nearly equal
-/// floats are exact, and the mean of equal values is exactly that value.
+/// The mean of a window, with the neighbours' deviations from its centre: differences of nearly
+/// equal floats are exact, and the mean of equal values is exactly that value.
 struct WindowMean {
   float centre;
   float mean;
@@ -171,7 +171,8 @@ inline float window_error(const WindowRows<Rows>& rows, int x) {
   const auto sum_over_window = [&](auto value) {
     return [&]<int... Tap>(std::integer_sequence<int, Tap...>) {
       return (value(Tap / columns, x + First + Tap % columns) + ...);
-    }(std::make_integer_sequence<int, Rows * columns>());
+    }
+    (std::make_integer_sequence<int, Rows * columns>());
   };
   WindowMean window;
   window.centre = rows.centre[x];

@@ -69,7 +69,7 @@ constexpr std::array kColorMaps{
 };
 
 std::uint8_t to_byte(float x) {
-  return static_cast<std::uint8_t>(x * 255.f + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(x * 255.f));
 }
 
 Rgba8 sample_knots(std::span<const vec3> knots, float t) {

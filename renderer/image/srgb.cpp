@@ -19,7 +19,7 @@ namespace {
 /// bits are.
 std::uint32_t first_bits_of(int value) {
   std::uint32_t low = 0;
-  std::uint32_t high = std::bit_cast<std::uint32_t>(1.f);
+  auto high = std::bit_cast<std::uint32_t>(1.f);
   while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
     if (std::lround(255.0 * srgb_encode(std::bit_cast<float>(middle))) >= value) {
@@ -34,19 +34,18 @@ std::uint32_t first_bits_of(int value) {
 }  // namespace
 
 Srgb8Encoder::Srgb8Encoder() {
-  step_.fill(2.f);
-  std::array<std::uint8_t, kParts> steps{};
+  constexpr auto kNoStep = std::bit_cast<std::uint32_t>(2.f);
+  parts_.fill({kNoStep, 0});
   for (int value = 1; value <= 255; ++value) {
     const std::uint32_t bits = first_bits_of(value);
-    const std::size_t part = (bits - std::bit_cast<std::uint32_t>(kLowest)) >> kPartShift;
-    assert(part < kParts && steps[part] == 0);
-    step_[part] = std::bit_cast<float>(bits);
-    steps[part] = 1;
+    Part& part = parts_.at((bits - kLowestBits) >> kPartShift);
+    assert(part.step == kNoStep);
+    part.step = bits;
   }
-  std::uint8_t below = 0;
-  for (std::size_t part = 0; part < kParts; ++part) {
-    below_[part] = below;
-    below = static_cast<std::uint8_t>(below + steps[part]);
+  std::uint32_t below = 0;
+  for (Part& part : parts_) {
+    part.below = below;
+    below += part.step != kNoStep ? 1 : 0;
   }
 }
 

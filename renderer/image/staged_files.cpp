@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <ranges>
 #include <stdexcept>
 #include <system_error>
 
@@ -50,7 +49,6 @@ StagedFiles::StagedFiles(const fs::path& folder) : folder_(folder.empty() ? "." 
        missing = missing.parent_path()) {
     created_folders_.push_back(missing);
   }
-  std::ranges::reverse(created_folders_);
   try {
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_)) {
@@ -87,7 +85,7 @@ void StagedFiles::check_writable() const {
 
 void StagedFiles::remove_created_folders() {
   // fs::remove leaves a folder that is not empty.
-  for (const fs::path& folder : std::views::reverse(created_folders_)) {
+  for (const fs::path& folder : created_folders_) {
     std::error_code ignored;
     fs::remove(folder, ignored);
   }

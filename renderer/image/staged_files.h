@@ -44,7 +44,7 @@ class StagedFiles {
   void remove_created_folders();
 
   std::filesystem::path folder_;
-  std::vector<std::filesystem::path> created_folders_;  // outermost first
+  std::vector<std::filesystem::path> created_folders_;  // innermost first
   std::vector<Staged> staged_;
 };
 

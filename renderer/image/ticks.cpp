@@ -54,7 +54,7 @@ std::vector<Tick> linear_ticks(double min, double max, int wanted) {
 }
 
 std::vector<Tick> ticks_with_ends(double min, double max, int wanted) {
-  const std::vector<Tick> round = linear_ticks(min, max, wanted);
+  std::vector<Tick> round = linear_ticks(min, max, wanted);
   if (!is_range(min, max) || min == max) {
     return round;
   }

@@ -1,5 +1,6 @@
 #include "renderer/image/tone_map.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -27,15 +28,24 @@ template <float (*curve)(float)>
 void encode(std::span<const glm::vec3> radiance, float scale, std::span<Rgba8> display) {
   assert(radiance.size() == display.size());
   const Srgb8Encoder& srgb8 = srgb8_encoder();
-  const auto channel = [&](float value) {
+  const auto bits_of = [scale](float value) {
     // An upper bound whose square is finite, so that no curve turns infinity into NaN.
     const float scaled = value * scale;
     const float positive = scaled > 0.f ? scaled : 0.f;
-    return srgb8(curve(positive < 1e18f ? positive : 1e18f));
+    return Srgb8Encoder::clamped_bits(curve(positive < 1e18f ? positive : 1e18f));
   };
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    const glm::vec3 c = radiance[i];
-    display[i] = {channel(c.r), channel(c.g), channel(c.b), 255};
+  constexpr std::size_t kBlock = 128;
+  std::array<glm::uvec3, kBlock> bits;
+  for (std::size_t start = 0; start < radiance.size(); start += kBlock) {
+    const std::size_t size = std::min(kBlock, radiance.size() - start);
+    for (std::size_t i = 0; i < size; ++i) {
+      const glm::vec3 c = radiance[start + i];
+      bits[i] = {bits_of(c.r), bits_of(c.g), bits_of(c.b)};
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      display[start + i] = {srgb8.look_up(bits[i].r), srgb8.look_up(bits[i].g),
+                            srgb8.look_up(bits[i].b), 255};
+    }
   }
 }
 

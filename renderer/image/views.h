@@ -22,8 +22,8 @@ ColorScale heat_scale(HeatRange range, std::span<const Lane> lanes, const Lane& 
 DisplayImage heat_view(const Lane& lane, const ColorScale& scale);
 
 /// Everything a lane knows about its pixels: R, G, B, SampleCount, Rejected, Error.<estimator>
-/// (Error.<estimator>.R/G/B where it has three), and Variance.R/G/B of the mean where the film keeps
-/// variance.
+/// (Error.<estimator>.R/G/B where it has three), and Variance.R/G/B of the mean where the film
+/// keeps variance.
 ExrImage lane_exr(const Lane& lane);
 
 }  // namespace quartet

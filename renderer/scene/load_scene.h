@@ -11,8 +11,8 @@
 
 namespace quartet {
 
-/// A scene that cannot be rendered. what() is one line: file, line, what was wrong and what would be
-/// right.
+/// A scene that cannot be rendered. what() is one line: file, line, what was wrong and what would
+/// be right.
 struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,9 +27,9 @@ Scene load_scene(const std::filesystem::path& path, const SceneParameters& param
 /// The scenes that come with Quartet: names without folder and extension, sorted.
 std::vector<std::string> builtin_scenes();
 
-/// The file meant by `name`: the path itself if it exists, else the built-in scene of that name (with
-/// or without "scenes/" before and ".xml" behind it). Throws SceneError that lists the built-in
-/// scenes.
+/// The file meant by `name`: the path itself if it exists, else the built-in scene of that name
+/// (with or without "scenes/" before and ".xml" behind it). Throws SceneError that lists the
+/// built-in scenes.
 std::filesystem::path find_scene(std::string_view name);
 
 }  // namespace quartet

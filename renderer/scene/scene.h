@@ -32,14 +32,15 @@ enum class MaterialKind { diffuse, conductor, rough_conductor, dielectric };
 
 struct Material {
   MaterialKind kind = MaterialKind::diffuse;
-  bool two_sided = false;        ///< reflects on the back like on the front; never a dielectric
-  Color reflectance{{0.5f, 0.5f, 0.5f}};    ///< albedo (diffuse), or a factor on the reflected radiance
+  bool two_sided = false;  ///< reflects on the back like on the front; never a dielectric
+  Color reflectance{
+      {0.5f, 0.5f, 0.5f}};  ///< albedo (diffuse), or a factor on the reflected radiance
   Color transmittance{{1.0f, 1.0f, 1.0f}};  ///< factor on the transmitted radiance (dielectric)
-  glm::vec3 eta{0.0f};           ///< conductors: real part of the index of refraction
-  glm::vec3 k{1.0f};             ///< conductors: extinction; eta = 0 reflects everything
-  float ior = 1.5046f;           ///< dielectric: index inside over index outside
-  float alpha = 0.1f;            ///< rough_conductor: GGX roughness
-  std::string id;                ///< as in the file, may be empty
+  glm::vec3 eta{0.0f};                      ///< conductors: real part of the index of refraction
+  glm::vec3 k{1.0f};                        ///< conductors: extinction; eta = 0 reflects everything
+  float ior = 1.5046f;                      ///< dielectric: index inside over index outside
+  float alpha = 0.1f;                       ///< rough_conductor: GGX roughness
+  std::string id;                           ///< as in the file, may be empty
 };
 
 /// Triangles; normals and uvs are either empty or one a vertex. The geometric normal of a triangle
@@ -57,8 +58,8 @@ struct Mesh {
 struct Sphere {
   glm::vec3 center{0.0f};
   float radius = 1.0f;
-  bool flip_normals = false;     ///< the front is the inside
-  glm::mat3 to_local{1.0f};      ///< world direction to the sphere's own axes, for uv
+  bool flip_normals = false;  ///< the front is the inside
+  glm::mat3 to_local{1.0f};   ///< world direction to the sphere's own axes, for uv
 };
 
 struct Disk {
@@ -71,11 +72,11 @@ struct Disk {
 
 struct Shape {
   std::variant<Mesh, Sphere, Disk> geometry;
-  int material = 0;              ///< index into Scene::materials
+  int material = 0;  ///< index into Scene::materials
   bool emits = false;
-  Color radiance;                ///< of the front side, where `emits`
-  std::string id;                ///< as in the file, may be empty
-  int line = 0;                  ///< in the scene file, for messages
+  Color radiance;  ///< of the front side, where `emits`
+  std::string id;  ///< as in the file, may be empty
+  int line = 0;    ///< in the scene file, for messages
 };
 
 /// Which side of the picture `Camera::fov` spans.
@@ -89,17 +90,17 @@ struct Camera {
   glm::vec3 forward{0.0f, 0.0f, 1.0f};  ///< unit length
   float fov = 39.3f;                    ///< degrees, along `fov_axis`
   FovAxis fov_axis = FovAxis::x;
-  float aperture_radius = 0.0f;         ///< world units
-  float focus_distance = 1.0f;          ///< world units along `forward`
+  float aperture_radius = 0.0f;  ///< world units
+  float focus_distance = 1.0f;   ///< world units along `forward`
 };
 
 struct Scene {
-  std::string name;              ///< file name without folder and extension
+  std::string name;  ///< file name without folder and extension
   std::filesystem::path path;
   std::vector<Shape> shapes;
   std::vector<Material> materials;
   std::vector<Checkerboard> textures;
-  glm::vec3 environment{0.0f};   ///< constant radiance from every direction that meets no shape
+  glm::vec3 environment{0.0f};  ///< constant radiance from every direction that meets no shape
   Camera camera;
   int width = 768;
   int height = 576;

@@ -20,7 +20,7 @@ std::vector<std::string> builtin_scenes() {
 
 std::filesystem::path find_scene(std::string_view name) {
   std::error_code error;
-  const std::filesystem::path path(name);
+  std::filesystem::path path(name);
   if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error)) {
     return path;
   }

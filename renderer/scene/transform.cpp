@@ -78,11 +78,11 @@ glm::dmat4 matrix(const XmlDocument& xml, pugi::xml_node node) {
   if (values.size() != 16 && values.size() != 9) {
     xml.fail(node, fmt::format("<matrix> holds {} numbers, expected 16 or 9", values.size()));
   }
-  const int size = values.size() == 16 ? 4 : 3;
+  const std::size_t size = values.size() == 16 ? 4 : 3;
   glm::dmat4 result(1.0);
-  for (int row = 0; row < size; ++row) {
-    for (int column = 0; column < size; ++column) {
-      result[column][row] = values[std::size_t(row * size + column)];
+  for (std::size_t row = 0; row < size; ++row) {
+    for (std::size_t column = 0; column < size; ++column) {
+      result[int(column)][int(row)] = values[row * size + column];
     }
   }
   return result;

@@ -6,10 +6,11 @@ namespace quartet {
 namespace {
 
 /// GGX normal distribution: Walter et al., "Microfacet Models for Refraction through Rough
-/// Surfaces", EGSR 2007, eq. 33.
-float ggx_distribution(float cos_m, float alpha) {
+/// Surfaces", EGSR 2007, eq. 33. The squared sine of the angle comes from x and y, because 1 − cos²
+/// keeps no digits where alpha is small.
+float ggx_distribution(glm::vec3 m, float alpha) {
   const float a2 = alpha * alpha;
-  const float d = cos_m * cos_m * (a2 - 1.0f) + 1.0f;
+  const float d = m.x * m.x + m.y * m.y + a2 * m.z * m.z;
   return a2 / (pi * d * d);
 }
 
@@ -32,8 +33,8 @@ glm::vec3 sample_visible_normal(glm::vec3 wo, float alpha, float u, float v) {
   const glm::vec3 t2 = glm::cross(stretched, t1);
   const float s = 0.5f * (1.0f + stretched.z);
   p.y = (1.0f - s) * std::sqrt(std::max(0.0f, 1.0f - p.x * p.x)) + s * p.y;
-  const glm::vec3 n = p.x * t1 + p.y * t2 +
-                      std::sqrt(std::max(0.0f, 1.0f - p.x * p.x - p.y * p.y)) * stretched;
+  const glm::vec3 n =
+      p.x * t1 + p.y * t2 + std::sqrt(std::max(0.0f, 1.0f - p.x * p.x - p.y * p.y)) * stretched;
   return glm::normalize(glm::vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
 }
 
@@ -44,7 +45,7 @@ glm::vec3 conductor_fresnel(const Bsdf& bsdf, float cos_i) {
 BsdfValue evaluate_rough_conductor(const Bsdf& bsdf, glm::vec3 wo, glm::vec3 wi) {
   const float alpha = bsdf.material->alpha;
   const glm::vec3 m = glm::normalize(wo + wi);
-  const float d_g1 = ggx_distribution(m.z, alpha) * ggx_masking(wo, alpha);
+  const float d_g1 = ggx_distribution(m, alpha) * ggx_masking(wo, alpha);
   const glm::vec3 fresnel = conductor_fresnel(bsdf, glm::dot(wo, m));
   BsdfValue value;
   value.f_cos = fresnel * (d_g1 * ggx_masking(wi, alpha) / (4.0f * wo.z));

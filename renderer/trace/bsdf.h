@@ -44,9 +44,9 @@ BsdfValue evaluate(const Bsdf& bsdf, glm::vec3 wo, glm::vec3 wi);
 /// `u_lobe` chooses between reflection and transmission, (u, v) the direction.
 BsdfSample sample(const Bsdf& bsdf, glm::vec3 wo, float u_lobe, float u, float v);
 
-/// Unpolarised Fresnel reflectance of a smooth dielectric. `cos_i` > 0; `eta` is the index on the far
-/// side over the index on the near side; `cos_t` receives the cosine of the transmitted angle, 0 at
-/// total internal reflection.
+/// Unpolarised Fresnel reflectance of a smooth dielectric. `cos_i` > 0; `eta` is the index on the
+/// far side over the index on the near side; `cos_t` receives the cosine of the transmitted angle,
+/// 0 at total internal reflection.
 float fresnel_dielectric(float cos_i, float eta, float& cos_t);
 
 /// The same for a conductor with complex index eta + i k relative to the near side.

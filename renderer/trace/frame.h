@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -22,9 +23,7 @@ struct Frame {
   }
 
   glm::vec3 to_world(glm::vec3 v) const { return v.x * s + v.y * t + v.z * n; }
-  glm::vec3 to_local(glm::vec3 v) const {
-    return {glm::dot(v, s), glm::dot(v, t), glm::dot(v, n)};
-  }
+  glm::vec3 to_local(glm::vec3 v) const { return {glm::dot(v, s), glm::dot(v, t), glm::dot(v, n)}; }
 };
 
 /// The unit square onto the unit disk, keeping areas and neighbourhoods: Shirley and Chiu, "A Low

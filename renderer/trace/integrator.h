@@ -12,8 +12,8 @@ namespace quartet {
 
 enum class IntegratorId { kajiya, mis };
 
-/// Everything that decides the value of a sample, beside the scene. A change makes other samples, so
-/// it empties the store.
+/// Everything that decides the value of a sample, beside the scene. A change makes other samples,
+/// so it empties the store.
 struct RenderSettings {
   Camera camera;
   int width = 0;

@@ -15,8 +15,8 @@ bool sampled_by_area(float distance2, float radius) {
   return distance2 <= radius * radius * 1.0002f;
 }
 
-/// 1 − cos of the half angle under which a sphere is seen, in a form that keeps its digits for small
-/// angles.
+/// 1 − cos of the half angle under which a sphere is seen, in a form that keeps its digits for
+/// small angles.
 float one_minus_cos_cap(float distance2, float radius) {
   const float sin2 = radius * radius / distance2;
   return sin2 < 1e-3f ? 0.5f * sin2 * (1.0f + 0.25f * sin2) : 1.0f - std::sqrt(1.0f - sin2);
@@ -75,7 +75,7 @@ void Lights::add(std::uint32_t shape_index, const Disk& disk) {
   lights_.push_back({.kind = Kind::disk,
                      .origin = disk.center,
                      .edge1 = disk.radius * disk.axis_u,
-                     .edge2 = disk.radius * glm::cross(disk.normal, disk.axis_u),
+                     .edge2 = disk.radius * disk.axis_v,
                      .normal = disk.normal,
                      .radius = disk.radius,
                      .area = pi * disk.radius * disk.radius,
@@ -98,15 +98,16 @@ void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
     total += p;
   }
   double sum = 0.0;
+  float before = 0.0f;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     // An environment around nothing has no power by this measure, yet must be found.
-    lights_[i].probability =
-        total > 0.0 ? float(power[i] / total) : 1.0f / float(lights_.size());
-    sum += double(lights_[i].probability);
-    cdf_.push_back(float(sum));
-  }
-  if (!cdf_.empty()) {
-    cdf_.back() = 1.0f;
+    sum += total > 0.0 ? power[i] / total : 1.0 / double(lights_.size());
+    // In steps of the random numbers, so that each probability is exactly the share of numbers that
+    // choose its light. A light too dim for one step is left to BSDF sampling.
+    const float until = float(std::round(sum * 0x1p24) * 0x1p-24);
+    lights_[i].probability = until - before;
+    cdf_.push_back(until);
+    before = until;
   }
 }
 
@@ -184,8 +185,8 @@ void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
     s.direction = to_light / length;
     s.distance = length * short_of_light;
     const float cos_light = std::abs(glm::dot(s.direction, outward));
-    if (cos_light == 0.0f) {
-      return;
+    if (!(cos_light > 0.0f)) {
+      return;  // along the surface, or no way at all
     }
     s.pdf = length2 / (cos_light * light.area);
   } else {
@@ -198,8 +199,8 @@ void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
     const float sine = std::sqrt(sin2);
     const float phi = 2.0f * pi * v;
     const Frame frame(to_center / distance);
-    s.direction = frame.to_world(
-        {sine * std::cos(phi), sine * std::sin(phi), 1.0f - one_minus_cos});
+    s.direction =
+        frame.to_world({sine * std::cos(phi), sine * std::sin(phi), 1.0f - one_minus_cos});
     const float half_chord2 = light.radius * light.radius - distance2 * sin2;
     const float near = distance * (1.0f - one_minus_cos) - std::sqrt(std::max(0.0f, half_chord2));
     outward = (near * s.direction - to_center) / light.radius;
@@ -238,9 +239,8 @@ float Lights::pdf(const Surface& surface, glm::vec3 from, glm::vec3 direction,
 }
 
 float Lights::environment_pdf() const {
-  return environment_ < 0
-             ? 0.0f
-             : lights_[std::size_t(environment_)].probability * (1.0f / (4.0f * pi));
+  return environment_ < 0 ? 0.0f
+                          : lights_[std::size_t(environment_)].probability * (1.0f / (4.0f * pi));
 }
 
 glm::vec3 Lights::radiance_at(const Light& light, glm::vec3 position, const Hit& hit) const {

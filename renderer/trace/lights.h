@@ -36,10 +36,10 @@ class Lights {
 
   struct Light {
     Kind kind;
-    glm::vec3 origin{0.0f};     // a corner, or the centre
-    glm::vec3 edge1{0.0f};      // of a disk: two radii at right angles
+    glm::vec3 origin{0.0f};  // a corner, or the centre
+    glm::vec3 edge1{0.0f};   // of a disk: two radii at right angles
     glm::vec3 edge2{0.0f};
-    glm::vec3 normal{0.0f};     // of flat lights
+    glm::vec3 normal{0.0f};  // of flat lights
     float radius = 0.0f;
     float area = 0.0f;
     std::uint32_t shape = 0;
@@ -57,8 +57,8 @@ class Lights {
 
   const Scene* scene_;
   std::vector<Light> lights_;
-  std::vector<float> cdf_;          // one a light, ends in 1
-  std::vector<int> first_of_shape_; // first light of a shape; −1 where it does not emit
+  std::vector<float> cdf_;           // one a light, ends in 1
+  std::vector<int> first_of_shape_;  // first light of a shape; −1 where it does not emit
   int environment_ = -1;
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "renderer/trace/sampler.h"
 #include "renderer/trace/trace_scene.h"
 
@@ -25,8 +28,8 @@ inline float power_heuristic(float pdf, float other) {
   return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// A direction must lie on the same side of the shading and of the geometric surface, or light would
-/// leak through the triangles of a smooth mesh.
+/// A direction must lie on the same side of the shading and of the geometric surface, or light
+/// would leak through the triangles of a smooth mesh.
 inline bool leaks(const Surface& surface, glm::vec3 direction) {
   return glm::dot(direction, surface.normal) * glm::dot(direction, surface.shading_normal) < 0.0f;
 }
@@ -44,7 +47,14 @@ glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Fram
   if (value.f_cos == glm::vec3(0.0f)) {
     return glm::vec3(0.0f);
   }
-  const Ray shadow{offset_origin(surface, light.direction), light.direction, light.distance};
+  // From the offset origin to the point itself: along a parallel, a ray that meets the light at a
+  // grazing angle would meet it too early.
+  Ray shadow{offset_origin(surface, light.direction), light.direction, light.distance};
+  if (light.distance > 0.0f && light.distance < std::numeric_limits<float>::infinity()) {
+    const glm::vec3 way = (surface.position - shadow.origin) + light.distance * light.direction;
+    shadow.t_max = glm::length(way);
+    shadow.direction = way / shadow.t_max;
+  }
   observer.occluded(shadow);
   if (scene.accel().occluded(shadow)) {
     return glm::vec3(0.0f);
@@ -54,10 +64,10 @@ glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Fram
 
 }  // namespace detail
 
-/// The radiance that arrives along `ray`, an unbiased estimate by unidirectional path tracing of the
-/// rendering equation (Kajiya 1986). With `NextEvent`, each diffuse or glossy vertex also samples a
-/// light, and both ways of finding light are weighted by the power heuristic; without it, light is
-/// found by BSDF sampling alone. `max_depth` counts segments: 1 shows lights only.
+/// The radiance that arrives along `ray`, an unbiased estimate by unidirectional path tracing of
+/// the rendering equation (Kajiya 1986). With `NextEvent`, each diffuse or glossy vertex also
+/// samples a light, and both ways of finding light are weighted by the power heuristic; without it,
+/// light is found by BSDF sampling alone. `max_depth` counts segments: 1 shows lights only.
 template <bool NextEvent, class Observer>
 glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max_depth,
                      Observer& observer) {
@@ -71,10 +81,9 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     Hit hit;
     observer.closest_hit(ray);
     if (!scene.accel().closest_hit(ray, hit)) {
-      const float weight =
-          NextEvent && bsdf_pdf > 0.0f
-              ? detail::power_heuristic(bsdf_pdf, scene.lights().environment_pdf())
-              : 1.0f;
+      const float weight = NextEvent && bsdf_pdf > 0.0f
+                               ? detail::power_heuristic(bsdf_pdf, scene.lights().environment_pdf())
+                               : 1.0f;
       return radiance + weight * throughput * scene.scene().environment;
     }
     const Surface surface = scene.surface(ray, hit);
@@ -82,8 +91,8 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     if (emitted != glm::vec3(0.0f)) {
       const float weight =
           NextEvent && bsdf_pdf > 0.0f
-              ? detail::power_heuristic(bsdf_pdf, scene.lights().pdf(surface, previous,
-                                                                     ray.direction, hit.t))
+              ? detail::power_heuristic(bsdf_pdf,
+                                        scene.lights().pdf(surface, previous, ray.direction, hit.t))
               : 1.0f;
       radiance += weight * throughput * emitted;
     }
@@ -96,8 +105,7 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     const glm::vec3 wo = frame.to_local(-ray.direction);
     const Sampler::Draws& draws = sampler.next();
     if (NextEvent && !is_specular(bsdf)) {
-      radiance +=
-          throughput * detail::next_event(scene, surface, frame, bsdf, wo, draws, observer);
+      radiance += throughput * detail::next_event(scene, surface, frame, bsdf, wo, draws, observer);
     }
 
     const BsdfSample next = sample(bsdf, wo, draws[5], draws[2], draws[3]);
@@ -111,9 +119,8 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     }
     eta_scale *= next.eta_scale;
     if (depth >= detail::first_roulette_depth) {
-      const float survival =
-          std::min(detail::max_survival,
-                   eta_scale * std::max({throughput.x, throughput.y, throughput.z}));
+      const float survival = std::min(
+          detail::max_survival, eta_scale * std::max({throughput.x, throughput.y, throughput.z}));
       if (draws[6] >= survival) {
         return radiance;
       }

@@ -29,8 +29,8 @@ class SampleStore {
   int height() const { return height_; }
 
   /// Makes samples [begin[p], end[p]) of each pixel p available; nothing where begin ≥ end. Traces
-  /// what is missing on the threads of the current TBB arena. Returns false if `stop` ended it early;
-  /// what was traced until then is kept.
+  /// what is missing on the threads of the current TBB arena. Returns false if `stop` ended it
+  /// early; what was traced until then is kept.
   bool require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
                const SampleSource& source, std::stop_token stop = {});
 
@@ -50,8 +50,8 @@ class SampleStore {
   /// Forgets samples below used[p] of each pixel if the store is over its budget.
   void trim(std::span<const std::uint32_t> used);
 
-  /// Mean wall-clock seconds that one sample of each pixel took, with the threads that traced it all
-  /// at work. What a lane's samples cost is the sum of counts times this.
+  /// Mean wall-clock seconds that one sample of each pixel took, with the threads that traced it
+  /// all at work. What a lane's samples cost is the sum of counts times this.
   std::span<const float> seconds_per_sample() const { return seconds_per_sample_; }
 
   std::uint64_t traced() const { return traced_; }  ///< samples, since construction

@@ -21,8 +21,8 @@ class Sampler {
   using Draws = float[dimensions_per_vertex];
 
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index)
-      : key_(mix(mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu)) +
-                 pixel * 0x9e3779b9u)),
+      : key_(pixel_key(mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu)),
+                       pixel)),
         reversed_index_(reverse_bits(index)) {}
 
   /// The draws of the next vertex; the first call is the camera's. Valid until the next call.
@@ -47,6 +47,12 @@ class Sampler {
     x *= 0x735a2d97u;
     x ^= x >> 15;
     return x;
+  }
+
+  /// The seed enters twice: once alone, two seeds would now and then give the same picture of
+  /// noise, some pixels apart.
+  static constexpr std::uint32_t pixel_key(std::uint32_t seed, std::uint32_t pixel) {
+    return mix(mix(seed + pixel * 0x9e3779b9u) + seed);
   }
 
   /// Each bit flipped by a hash of the bits below it: Owen scrambling of a bit-reversed number.

@@ -29,15 +29,31 @@ glm::vec2 uv(const Sphere& sphere, glm::vec3 position, const Hit&) {
 glm::vec2 uv(const Disk& disk, glm::vec3 position, const Hit&) {
   const glm::vec3 p = (position - disk.center) / disk.radius;
   const float x = glm::dot(p, disk.axis_u);
-  const float y = glm::dot(p, glm::cross(disk.normal, disk.axis_u));
+  const float y = glm::dot(p, disk.axis_v);
   return {std::sqrt(x * x + y * y), turns(y, x)};
 }
 
+// Position and normal are made from the numbers of the shape, not from the ray: their errors are
+// then a few roundings of the shape's own coordinates, wherever the ray began. What counts is the
+// error along the normal, so that a floor at height 0 has none; Embree errs alike when the next ray
+// starts there. One rounding is 2^-24. At 2^-21 none of 28 million rays, from shapes of many sizes
+// and places, met the surface that it left; at 2^-22 some did.
+constexpr float errors = 0x1p-19f;
+
 void refine(const Mesh& mesh, const Hit& hit, Surface& surface) {
+  const glm::uvec3 triangle = mesh.triangles[hit.primitive];
+  const glm::vec3 a = mesh.positions[triangle.x];
+  const glm::vec3 b = mesh.positions[triangle.y];
+  const glm::vec3 c = mesh.positions[triangle.z];
+  surface.position = (1.0f - hit.u - hit.v) * a + hit.u * b + hit.v * c;
+  surface.normal = glm::normalize(hit.normal);
+  surface.shading_normal = surface.normal;
+  surface.offset = errors * glm::dot(glm::abs(surface.normal),
+                                     glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c)));
   if (mesh.normals.empty()) {
     return;
   }
-  const glm::vec3 normal = interpolate(mesh.normals, mesh.triangles[hit.primitive], hit);
+  const glm::vec3 normal = interpolate(mesh.normals, triangle, hit);
   const float length = glm::length(normal);
   if (length > 0.0f) {
     surface.shading_normal = normal / length;
@@ -48,16 +64,19 @@ void refine(const Mesh& mesh, const Hit& hit, Surface& surface) {
 }
 
 void refine(const Sphere& sphere, const Hit&, Surface& surface) {
-  // The distance along the ray is coarse beside the radius; the way from the centre is not.
   const glm::vec3 outward = glm::normalize(surface.position - sphere.center);
   surface.position = sphere.center + sphere.radius * outward;
   surface.normal = sphere.flip_normals ? -outward : outward;
   surface.shading_normal = surface.normal;
+  surface.offset =
+      errors * (glm::dot(glm::abs(surface.normal), glm::abs(sphere.center)) + sphere.radius);
 }
 
 void refine(const Disk& disk, const Hit&, Surface& surface) {
+  surface.position -= glm::dot(surface.position - disk.center, disk.normal) * disk.normal;
   surface.normal = disk.normal;
   surface.shading_normal = disk.normal;
+  surface.offset = errors * glm::dot(glm::abs(disk.normal), glm::abs(disk.center) + disk.radius);
 }
 
 }  // namespace
@@ -77,8 +96,6 @@ bool needs_uv(const Scene& scene, const Shape& shape) {
 Surface surface_at(const Shape& shape, bool with_uv, const Ray& ray, const Hit& hit) {
   Surface surface;
   surface.position = ray.origin + hit.t * ray.direction;
-  surface.normal = glm::normalize(hit.normal);
-  surface.shading_normal = surface.normal;
   surface.shape = hit.shape;
   surface.primitive = hit.primitive;
   std::visit([&](const auto& geometry) { refine(geometry, hit, surface); }, shape.geometry);

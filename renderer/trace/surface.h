@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <glm/glm.hpp>
 
 #include "renderer/scene/scene.h"
@@ -14,6 +13,7 @@ struct Surface {
   glm::vec3 normal;          ///< geometric, unit length, on the front side of the shape
   glm::vec3 shading_normal;  ///< interpolated where the mesh has normals; same side as `normal`
   glm::vec2 uv;              ///< (0, 0) where no texture of the shape asks for it
+  float offset;              ///< along the normal, beyond all rounding errors of the position
   std::uint32_t shape;
   std::uint32_t primitive;
 };
@@ -26,13 +26,10 @@ bool needs_uv(const Scene& scene, const Shape& shape);
 
 Surface surface_at(const Shape& shape, bool with_uv, const Ray& ray, const Hit& hit);
 
-/// A ray origin on the side of the surface that `direction` points to, moved off by a few times the
-/// rounding error of a hit: that error grows with the coordinates, so the offset does.
+/// A ray origin on the side of the surface that `direction` points to.
 inline glm::vec3 offset_origin(const Surface& surface, glm::vec3 direction) {
-  const glm::vec3 p = glm::abs(surface.position);
-  const float scale = 0x1p-17f * std::max({p.x, p.y, p.z, 0x1p-10f});
-  return surface.position +
-         surface.normal * (glm::dot(direction, surface.normal) >= 0.0f ? scale : -scale);
+  const bool front = glm::dot(direction, surface.normal) >= 0.0f;
+  return surface.position + surface.normal * (front ? surface.offset : -surface.offset);
 }
 
 }  // namespace quartet

@@ -27,7 +27,7 @@ const std::vector<float>& floats(const ExrImage& image, std::string_view name) {
 TEST(Exr, FloatsCountsAndTextSurviveARoundTrip) {
   const TempFolder folder;
   ExrImage image(33, 21);
-  const std::size_t size = 33 * 21;
+  const std::size_t size = 33UL * 21;
   // Not in alphabetical order, which is the file's.
   for (const char* name : {"Variance.R", "R", "Error.kl", "B", "G"}) {
     image.add(name, noise(size, static_cast<unsigned>(name[0])));
@@ -155,7 +155,7 @@ TEST(Exr, DamagedFilesAreOneLineWithThePath) {
 
   write_bytes_to(folder / "text.exr", "this is no picture, and long enough for a header");
   ExrImage image(64, 64);
-  image.add("Y", noise(64 * 64, 1));
+  image.add("Y", noise(64UL * 64, 1));
   write_exr(folder / "cut.exr", image);
   std::filesystem::resize_file(folder / "cut.exr", 5000);
   for (const char* name : {"text.exr", "cut.exr"}) {
@@ -169,7 +169,7 @@ TEST(Exr, DamagedFilesAreOneLineWithThePath) {
 TEST(Exr, AFullDiskIsAnErrorForSmallAndLargeImages) {
   for (const int size : {2, 500}) {
     ExrImage image(size, size);
-    image.add("Y", noise(static_cast<std::size_t>(size * size), 1));
+    image.add("Y", noise(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 1));
     EXPECT_EQ(error_of([&] { write_exr("/dev/full", image); }),
               "cannot write /dev/full: No space left on device");
   }

@@ -59,6 +59,19 @@ TEST(ToneMap, EveryRowIsMonotoneFromBlackAndSurvivesBadNumbers) {
   }
 }
 
+TEST(ToneMap, EveryPixelOfALongImageIsEncodedAlone) {
+  RadianceImage radiance(1000, 1);
+  for (int x = 0; x < 1000; ++x) {
+    radiance.at(x, 0) = glm::vec3(0.001f, 0.0007f, 0.0003f) * static_cast<float>(x);
+  }
+  for (const ToneMapRow& row : tone_maps()) {
+    const DisplayImage display = to_display(radiance, 0.5f, row.tone_map);
+    for (int x = 0; x < 1000; ++x) {
+      ASSERT_EQ(display.at(x, 0), display_of(radiance.at(x, 0), 0.5f, row.tone_map)) << x;
+    }
+  }
+}
+
 TEST(ToneMap, RowsHaveDistinctIdsThatAreFound) {
   for (const ToneMapRow& row : tone_maps()) {
     EXPECT_EQ(tone_map_from_id(row.id), row.tone_map);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>  // mkdtemp, which <cstdlib> need not declare
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>

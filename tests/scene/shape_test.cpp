@@ -151,6 +151,10 @@ TEST(Sphere, MirroringExchangesInsideAndOutsideAsInMitsuba) {
   EXPECT_TRUE(inside(R"(<scale x="-1"/>)"));
   EXPECT_FALSE(inside(R"(<scale x="-1"/>)", flipped));
   EXPECT_FALSE(inside(R"(<scale x="-1" y="-1"/>)"));
+  // The negative radius takes the sign, which leaves a rotation: half a turn about x.
+  const Scene scene = load_body(placed("sphere", R"(<scale x="-1"/>)"));
+  const auto& sphere = std::get<Sphere>(scene.shapes[0].geometry);
+  expect_near(sphere.to_local * glm::vec3(1, 2, 3), {1, -2, -3});
 }
 
 TEST(Disk, AxesNormalAndRadius) {

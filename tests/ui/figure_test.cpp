@@ -45,7 +45,7 @@ Figure with_long_texts() {
     for (int i = 0; i < 4; ++i) {
       panel.title += " and a title far too long for its panel";
     }
-    panel.lines.push_back(std::string(300, 'W'));
+    panel.lines.emplace_back(300, 'W');
     panel.bar = ColorBar{{8, 71, ColorMapId::report}, std::string(200, 'W'), std::string(200, 'M')};
   }
   figure.title = std::string(500, 'M') + " \xff broken \xe2\x82 bytes\nand a new line";

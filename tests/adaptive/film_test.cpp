@@ -1,0 +1,94 @@
+#include "renderer/adaptive/film.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace quartet {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(Film, MeanAndVarianceOfTheMean) {
+  std::mt19937 random(1);
+  std::exponential_distribution<float> radiance(1.0f);
+  std::vector<glm::vec3> samples(1000);
+  for (glm::vec3& sample : samples) {
+    sample = {radiance(random), 2.0f * radiance(random), 100.0f + radiance(random)};
+  }
+  Film film(2, 1, {.variance = true});
+  // In pieces, as frames do.
+  film.add(1, std::span(samples).first(1));
+  film.add(1, std::span(samples).subspan(1, 9));
+  film.add(1, std::span(samples).subspan(10));
+  for (int c = 0; c < 3; ++c) {
+    double mean = 0.0;
+    for (const glm::vec3& sample : samples) {
+      mean += double(sample[c]) / 1000.0;
+    }
+    double squares = 0.0;
+    for (const glm::vec3& sample : samples) {
+      squares += (double(sample[c]) - mean) * (double(sample[c]) - mean);
+    }
+    EXPECT_FLOAT_EQ(film.mean(c)[1], float(mean));
+    EXPECT_NEAR(film.variance_of_mean(1)[c], squares / 999.0 / 1000.0, 1e-12);
+    EXPECT_EQ(film.mean(c)[0], 0.0f);
+  }
+  EXPECT_EQ(film.counts()[1], 1000u);
+  EXPECT_EQ(film.variance_of_mean(0), glm::dvec3(0.0));
+}
+
+TEST(Film, EqualSamplesHaveNoVariance) {
+  Film film(1, 1, {.variance = true});
+  const std::vector<glm::vec3> samples(1000, glm::vec3(0.1f, 0.7f, 1e6f));
+  film.add(0, samples);
+  EXPECT_LT(film.variance_of_mean(0).z, 1e-12);
+  EXPECT_EQ(film.mean(0)[0], 0.1f);
+}
+
+TEST(Film, BadSamplesAreCountedAndLeftOut) {
+  const std::vector<glm::vec3> samples{
+      {1.0f, 2.0f, 3.0f},    {nan, 0.0f, 0.0f},  {0.0f, infinity, 0.0f}, {0.0f, 0.0f, -infinity},
+      {0.0f, -1e-30f, 0.0f}, {3.0f, 2.0f, 1.0f}, {0.0f, 0.0f, -nan}};
+  Film film(1, 1, {.variance = true});
+  film.add(0, samples);
+  EXPECT_EQ(film.counts()[0], 2u);
+  EXPECT_EQ(film.rejected()[0], 5u);
+  EXPECT_EQ(film.total_rejected(), 5u);
+  EXPECT_EQ(film.image().at(0, 0), glm::vec3(2.0f, 2.0f, 2.0f));
+  EXPECT_NEAR(film.variance_of_mean(0).x, 1.0, 1e-12);
+}
+
+TEST(Film, OnlyBadSamplesLeaveThePixelBlack) {
+  Film film(1, 1);
+  const glm::vec3 sample(nan);
+  film.add(0, {&sample, 1});
+  EXPECT_EQ(film.image().at(0, 0), glm::vec3(0.0f));
+  EXPECT_EQ(film.counts()[0], 0u);
+}
+
+TEST(Film, RightAtTenMillionSamplesAPixel) {
+  // A sum in single precision stops growing at 2²⁴.
+  Film film(1, 1);
+  std::vector<glm::vec3> samples(1000);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = glm::vec3(0.1f + 1e-3f * float(i), 1.0f, 1e-7f);
+  }
+  double mean = 0.0;
+  for (const glm::vec3& sample : samples) {
+    mean += double(sample.x) / 1000.0;
+  }
+  for (int i = 0; i < 10'000; ++i) {
+    film.add(0, samples);
+  }
+  EXPECT_EQ(film.counts()[0], 10'000'000u);
+  EXPECT_FLOAT_EQ(film.mean(0)[0], float(mean));
+  EXPECT_FLOAT_EQ(film.mean(1)[0], 1.0f);
+  EXPECT_FLOAT_EQ(film.mean(2)[0], 1e-7f);
+}
+
+}  // namespace
+}  // namespace quartet

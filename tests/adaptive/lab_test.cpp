@@ -1,0 +1,234 @@
+#include "renderer/adaptive/lab.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "renderer/scene/load_scene.h"
+
+namespace quartet {
+namespace {
+
+constexpr int width = 48;
+constexpr int height = 27;
+
+std::vector<SamplingPolicy> all_policies() {
+  std::vector<SamplingPolicy> policies;
+  for (const Estimator& row : estimators()) {
+    policies.push_back(default_policy(row.key));
+  }
+  return policies;
+}
+
+SampleSource cornell_checker(std::uint64_t seed = 0) {
+  static const auto scene =
+      std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker")));
+  RenderSettings settings = default_settings(scene->scene());
+  settings.width = width;
+  settings.height = height;
+  settings.seed = seed;
+  return sample_source(scene, settings);
+}
+
+Lab make_lab(std::span<const SamplingPolicy> policies, LabOptions options = {}) {
+  return Lab(cornell_checker(), width, height, policies, options);
+}
+
+LabOptions options_with_threads(int threads) {
+  LabOptions options;
+  options.threads = threads;
+  return options;
+}
+
+LabOptions options_with_memory(std::size_t bytes) {
+  LabOptions options;
+  options.memory = bytes;
+  return options;
+}
+
+void run(Lab& lab, std::uint32_t frames) {
+  while (lab.frame() < frames) {
+    ASSERT_TRUE(lab.run_frame());
+  }
+}
+
+/// Equal to the bit: film, errors, plan, counts.
+void expect_same_state(const Lane& a, const Lane& b) {
+  ASSERT_EQ(a.frame(), b.frame());
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_TRUE(std::ranges::equal(a.film().mean(c), b.film().mean(c)));
+  }
+  EXPECT_TRUE(std::ranges::equal(a.film().counts(), b.film().counts()));
+  EXPECT_TRUE(std::ranges::equal(a.taken(), b.taken()));
+  EXPECT_TRUE(std::ranges::equal(a.error(), b.error()));
+  EXPECT_EQ(a.plan().wanted, b.plan().wanted);
+  for (std::size_t i = 0; i < a.history().size(); ++i) {
+    EXPECT_EQ(a.history()[i].samples, b.history()[i].samples);
+    EXPECT_EQ(a.history()[i].refined, b.history()[i].refined);
+    EXPECT_EQ(a.history()[i].max_spp, b.history()[i].max_spp);
+  }
+}
+
+std::uint64_t sum(std::span<const std::uint32_t> values) {
+  return std::accumulate(values.begin(), values.end(), std::uint64_t(0));
+}
+
+TEST(Lab, EachSampleIsTracedOnce) {
+  Lab lab = make_lab(all_policies());
+  run(lab, 8);
+  std::uint64_t greediest = 0;
+  for (std::size_t i = 0; i < std::size_t(width * height); ++i) {
+    std::uint32_t most = 0;
+    for (const Lane& lane : lab.lanes()) {
+      most = std::max(most, lane.taken()[i]);
+    }
+    greediest += most;
+  }
+  EXPECT_EQ(lab.store().traced(), greediest);
+  EXPECT_EQ(lab.store().stored(), greediest);
+  std::uint64_t used = 0;
+  for (const Lane& lane : lab.lanes()) {
+    used += sum(lane.taken());
+    EXPECT_EQ(lane.history().back().samples, sum(lane.taken()));
+  }
+  EXPECT_GT(used, 2 * greediest);
+}
+
+TEST(Lab, ALaneIsTheSameAloneAndInCompany) {
+  const auto policies = all_policies();
+  Lab together = make_lab(policies);
+  run(together, 6);
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    Lab alone = make_lab(std::span(policies).subspan(i, 1));
+    run(alone, 6);
+    expect_same_state(alone.lanes()[0], together.lanes()[i]);
+  }
+}
+
+TEST(Lab, AReplayIsTheSameAsAFreshRun) {
+  auto policies = all_policies();
+  Lab lab = make_lab(policies);
+  run(lab, 6);
+  const std::uint64_t traced = lab.store().traced();
+  // There and back: what was done before leaves no trace.
+  const SamplingPolicy original = policies[1];
+  policies[1].thresholds[0] *= 3.0f;
+  lab.set_policy(1, policies[1]);
+  run(lab, 6);
+  EXPECT_EQ(lab.store().traced(), traced) << "a higher threshold needs nothing new";
+  Lab fresh = make_lab(policies);
+  run(fresh, 6);
+  expect_same_state(lab.lanes()[1], fresh.lanes()[1]);
+
+  policies[1].thresholds[0] = original.thresholds[0] / 4.0f;
+  lab.set_policy(1, policies[1]);
+  run(lab, 6);
+  EXPECT_GT(lab.store().traced(), traced);
+  lab.set_policy(1, original);
+  run(lab, 6);
+  policies[1] = original;
+  Lab again = make_lab(policies);
+  run(again, 6);
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    expect_same_state(lab.lanes()[i], again.lanes()[i]);
+  }
+}
+
+TEST(LabThreads, OneTwoAndEightThreadsGiveTheSame) {
+  const auto policies = all_policies();
+  Lab one = make_lab(policies, options_with_threads(1));
+  run(one, 6);
+  for (const int threads : {2, 8}) {
+    Lab many = make_lab(policies, options_with_threads(threads));
+    run(many, 6);
+    for (std::size_t i = 0; i < policies.size(); ++i) {
+      expect_same_state(one.lanes()[i], many.lanes()[i]);
+    }
+  }
+}
+
+TEST(Lab, AShortMemoryChangesNothingButWork) {
+  const auto policies = all_policies();
+  Lab ample = make_lab(policies);
+  run(ample, 12);
+  Lab tight = make_lab(policies, options_with_memory(1));
+  run(tight, 12);
+  EXPECT_TRUE(tight.store().partial());
+  EXPECT_FALSE(ample.store().partial());
+  EXPECT_LT(tight.store().stored(), ample.store().stored());
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    expect_same_state(ample.lanes()[i], tight.lanes()[i]);
+  }
+  tight.set_policy(2, policies[2]);
+  run(tight, 12);
+  expect_same_state(ample.lanes()[2], tight.lanes()[2]);
+}
+
+TEST(Lab, StoppedWorkIsKeptAndTakenUpAgain) {
+  const auto policies = all_policies();
+  std::stop_source stop;
+  stop.request_stop();
+  Lab lab = make_lab(policies);
+  EXPECT_TRUE(lab.run_frame(stop.get_token())) << "the first samples are never given up";
+  EXPECT_EQ(lab.frame(), 1u);
+  EXPECT_FALSE(lab.run_frame(stop.get_token()));
+  EXPECT_EQ(lab.frame(), 1u);
+  run(lab, 4);
+  Lab fresh = make_lab(policies);
+  run(fresh, 4);
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    expect_same_state(lab.lanes()[i], fresh.lanes()[i]);
+  }
+}
+
+TEST(Lab, BadSamplesAreRejectedAndDoNotHoldUpTheLane) {
+  const SampleSource source = [](int x, int, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      radiance[i] = glm::vec3(x == 0 && (first + i) % 2 == 1 ? std::nanf("") : 1.0f);
+    }
+  };
+  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  Lab lab(source, 2, 1, std::span(&policy, 1));
+  run(lab, 10);
+  const Lane& lane = lab.lanes()[0];
+  EXPECT_EQ(lane.taken()[0], 10u);
+  EXPECT_EQ(lane.film().counts()[0], 5u);
+  EXPECT_EQ(lane.film().rejected()[0], 5u);
+  EXPECT_EQ(lane.film().mean(0)[0], 1.0f);
+  EXPECT_EQ(lane.history().back().samples, 20u);
+}
+
+TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
+  Lab lab = make_lab(all_policies());
+  run(lab, 6);
+  for (const Lane& lane : lab.lanes()) {
+    for (std::size_t i = 1; i < lane.history().size(); ++i) {
+      EXPECT_GT(lane.history()[i].seconds, 0.0);
+      EXPECT_GT(lane.history()[i].samples, lane.history()[i - 1].samples);
+    }
+  }
+  // All samples of the store, charged once, are the time that tracing took.
+  const SampleStore& store = lab.store();
+  double charged = 0.0;
+  for (std::size_t i = 0; i < std::size_t(width * height); ++i) {
+    std::uint32_t most = 0;
+    for (const Lane& lane : lab.lanes()) {
+      most = std::max(most, lane.taken()[i]);
+    }
+    charged += double(most) * double(store.seconds_per_sample()[i]);
+  }
+  EXPECT_NEAR(charged / store.seconds(), 1.0, 1e-3);
+}
+
+TEST(Lab, AnotherSeedGivesOtherSamples) {
+  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  Lab a(cornell_checker(0), width, height, std::span(&policy, 1));
+  Lab b(cornell_checker(1), width, height, std::span(&policy, 1));
+  run(a, 1);
+  run(b, 1);
+  EXPECT_NE(a.lanes()[0].film().image(), b.lanes()[0].film().image());
+}
+
+}  // namespace
+}  // namespace quartet

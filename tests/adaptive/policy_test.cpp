@@ -1,0 +1,161 @@
+#include "renderer/adaptive/policy.h"
+
+#include <gtest/gtest.h>
+
+namespace quartet {
+namespace {
+
+/// A picture whose errors are given and that has taken one sample everywhere.
+struct Picture {
+  int width;
+  int height;
+  std::vector<float> error;
+  std::vector<std::uint32_t> taken;
+
+  Picture(int w, int h, int channels = 1)
+      : width(w),
+        height(h),
+        error(std::size_t(w * h * channels), 0.0f),
+        taken(std::size_t(w * h), 1) {}
+
+  Plan plan(const SamplingPolicy& policy, std::uint32_t frame = 1) const {
+    Plan plan;
+    plan_next(policy, {width, height, error, taken, frame}, plan);
+    return plan;
+  }
+};
+
+SamplingPolicy kl_policy(float multiplier) {
+  SamplingPolicy policy = default_policy(EstimatorId::kl);
+  policy.allocation.multiplier = multiplier;
+  return policy;
+}
+
+TEST(Vote, FirstFrameIsOneSampleEverywhere) {
+  Picture picture(5, 4);
+  std::fill(picture.taken.begin(), picture.taken.end(), 0u);
+  picture.error.clear();
+  const Plan plan = picture.plan(kl_policy(0.5f), 0);
+  EXPECT_EQ(plan.wanted, std::vector<std::uint16_t>(20, 1));
+  EXPECT_EQ(plan.total, 20u);
+}
+
+TEST(Vote, APixelVotesForItsNeighbourhood) {
+  Picture picture(5, 5);
+  picture.error[12] = 1.0f;
+  const Plan plan = picture.plan(kl_policy(1.0f));
+  EXPECT_EQ(plan.refined, 1u);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      const bool near = std::abs(x - 2) <= 1 && std::abs(y - 2) <= 1;
+      EXPECT_EQ(plan.wanted[std::size_t(5 * y + x)], near ? 2 : 1);
+    }
+  }
+  EXPECT_EQ(plan.total, 25u + 9u);
+}
+
+TEST(Vote, AFireflyInTheReport) {
+  // A firefly raises the error of all nine windows that hold it. With the multiplier of the
+  // report's text it gets nine extra samples, with that of its pictures four.
+  Picture picture(5, 5);
+  for (int y = 1; y <= 3; ++y) {
+    for (int x = 1; x <= 3; ++x) {
+      picture.error[std::size_t(5 * y + x)] = 1.0f;
+    }
+  }
+  EXPECT_EQ(picture.plan(kl_policy(1.0f)).wanted[12], 1 + 9);
+  EXPECT_EQ(picture.plan(kl_policy(0.5f)).wanted[12], 1 + 4);
+}
+
+TEST(Vote, BordersHaveFewerVoters) {
+  Picture picture(3, 3);
+  std::fill(picture.error.begin(), picture.error.end(), 1.0f);
+  const Plan plan = picture.plan(kl_policy(1.0f));
+  EXPECT_EQ(plan.wanted, (std::vector<std::uint16_t>{5, 7, 5, 7, 10, 7, 5, 7, 5}));
+  Picture single(1, 1);
+  single.error[0] = 1.0f;
+  EXPECT_EQ(single.plan(kl_policy(1.0f)).wanted[0], 2);
+}
+
+TEST(Vote, ErrorAtTheThresholdIsDone) {
+  Picture picture(1, 1);
+  const SamplingPolicy policy = kl_policy(1.0f);
+  picture.error[0] = policy.thresholds[0];
+  EXPECT_EQ(picture.plan(policy).refined, 0u);
+  picture.error[0] = std::nextafter(policy.thresholds[0], 1.0f);
+  EXPECT_EQ(picture.plan(policy).refined, 1u);
+}
+
+TEST(Vote, EachChannelOfContrastHasItsThreshold) {
+  const SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  for (std::size_t c = 0; c < 3; ++c) {
+    Picture picture(1, 1, 3);
+    picture.error[c] = policy.thresholds[c];
+    EXPECT_EQ(picture.plan(policy).refined, 0u) << c;
+    picture.error[c] = policy.thresholds[c] + 0.01f;
+    EXPECT_EQ(picture.plan(policy).refined, 1u) << c;
+  }
+}
+
+TEST(Vote, StochasticRoundingKeepsTheMean) {
+  // One vote at multiplier 0.5: each pixel draws one extra sample with probability ½. Over n = 90
+  // 000 pixels of nine planned frames the share lies within 4 standard deviations (false alarm
+  // 6e-5).
+  Picture picture(100, 100);
+  SamplingPolicy policy = kl_policy(0.5f);
+  policy.allocation.stochastic_rounding = true;
+  for (std::size_t y = 1; y < 100; y += 3) {
+    for (std::size_t x = 1; x < 100; x += 3) {
+      picture.error[100 * y + x] = 1.0f;
+    }
+  }
+  std::uint64_t extra = 0;
+  std::uint64_t voted = 0;
+  for (std::uint32_t frame = 1; frame <= 9; ++frame) {
+    extra += picture.plan(policy, frame).total - 10'000;
+    voted += 99 * 99;
+  }
+  const double share = double(extra) / double(voted);
+  EXPECT_NEAR(share, 0.5, 4.0 * 0.5 / std::sqrt(double(voted)));
+  EXPECT_NE(picture.plan(policy, 1).wanted, picture.plan(policy, 2).wanted);
+  EXPECT_EQ(picture.plan(policy, 1).wanted, picture.plan(policy, 1).wanted);
+}
+
+TEST(Vote, NoPixelPassesTheMaximum) {
+  Picture picture(2, 1);
+  picture.error = {1.0f, 1.0f};
+  SamplingPolicy policy = kl_policy(2.0f);
+  policy.max_spp = 7;
+  picture.taken = {4, 7};
+  EXPECT_EQ(picture.plan(policy).wanted, (std::vector<std::uint16_t>{3, 0}));
+  EXPECT_EQ(picture.plan(policy).total, 3u);
+}
+
+TEST(Vote, UniformNeverAsksForMore) {
+  Picture picture(4, 4);
+  picture.error.clear();
+  EXPECT_EQ(picture.plan(default_policy(EstimatorId::uniform), 3).wanted,
+            std::vector<std::uint16_t>(16, 1));
+}
+
+TEST(Tables, IdsAreUniqueAndFound) {
+  for (const Estimator& row : estimators()) {
+    EXPECT_EQ(&find_estimator(row.id), &row);
+    EXPECT_EQ(&estimator(row.key), &row);
+    EXPECT_FALSE(row.source.empty());
+  }
+  for (const AllocationRow& row : allocations()) {
+    EXPECT_EQ(&find_allocation(row.id), &row);
+    EXPECT_EQ(&allocation(row.key), &row);
+  }
+  try {
+    find_estimator("kll");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "unknown estimator 'kll'; there are: contrast, kl, chi2, hellinger, uniform");
+  }
+}
+
+}  // namespace
+}  // namespace quartet
