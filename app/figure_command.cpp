@@ -87,7 +87,7 @@ void print_table(const Lab& lab, const std::filesystem::path& out) {
 
 void run_figure(const FigureOptions& options, const Program& program) {
   const std::vector<SamplingPolicy> policies = policies_of(options);
-  const ViewSettings view{options.exposure, tone_map_from_id(options.tone_map),
+  const ViewSettings view{options.exposure, find_tone_map(options.tone_map).key,
                           heat_range(options.heat)};
   const Run run = prepare_run(options.run, policies.size());
   StagedFiles files(options.out);

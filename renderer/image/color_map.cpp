@@ -1,12 +1,11 @@
 #include "renderer/image/color_map.h"
+#include "renderer/table.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "renderer/image/row_from_id.h"
 
 namespace quartet {
 
@@ -88,14 +87,12 @@ std::span<const ColorMapRow> color_maps() {
   return kColorMaps;
 }
 
-const ColorMapRow& color_map_row(ColorMapId color_map) {
-  const auto& row = kColorMaps[static_cast<std::size_t>(color_map)];
-  assert(row.color_map == color_map);
-  return row;
+const ColorMapRow& color_map_row(ColorMapId key) {
+  return row_of(color_maps(), key);
 }
 
-ColorMapId color_map_from_id(std::string_view id) {
-  return row_from_id(color_maps(), id, "colour map").color_map;
+const ColorMapRow& find_color_map(std::string_view id) {
+  return find_row(color_maps(), id, "colour map");
 }
 
 Rgba8 sample(ColorMapId color_map, float t) {

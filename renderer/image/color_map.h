@@ -14,16 +14,16 @@ enum class ColorMapId { turbo, viridis, report, coolwarm };
 /// One row of the table of colour maps. Knots are sRGB-encoded, in [0, 1], equally spaced from
 /// t = 0 to t = 1, and joined by straight lines.
 struct ColorMapRow {
-  ColorMapId color_map;
+  ColorMapId key;
   std::string_view id, label, source;
   std::span<const glm::vec3> knots;
 };
 
 std::span<const ColorMapRow> color_maps();
-const ColorMapRow& color_map_row(ColorMapId color_map);
+const ColorMapRow& color_map_row(ColorMapId key);
 
-/// Throws std::runtime_error with the legal ids.
-ColorMapId color_map_from_id(std::string_view id);
+/// Throws std::invalid_argument that lists the legal ids.
+const ColorMapRow& find_color_map(std::string_view id);
 
 /// Pixels without a number (NaN) and pixels at the sample cap. No colour map contains these.
 inline constexpr Rgba8 kNotANumberColor{0, 0, 0, 255};

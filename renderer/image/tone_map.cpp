@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "renderer/image/row_from_id.h"
 #include "renderer/image/srgb.h"
+#include "renderer/table.h"
 
 namespace quartet {
 
@@ -66,14 +66,12 @@ std::span<const ToneMapRow> tone_maps() {
   return kToneMaps;
 }
 
-const ToneMapRow& tone_map_row(ToneMap tone_map) {
-  const auto& row = kToneMaps[static_cast<std::size_t>(tone_map)];
-  assert(row.tone_map == tone_map);
-  return row;
+const ToneMapRow& tone_map_row(ToneMap key) {
+  return row_of(tone_maps(), key);
 }
 
-ToneMap tone_map_from_id(std::string_view id) {
-  return row_from_id(tone_maps(), id, "tone map").tone_map;
+const ToneMapRow& find_tone_map(std::string_view id) {
+  return find_row(tone_maps(), id, "tone map");
 }
 
 DisplayImage to_display(const RadianceImage& radiance, float exposure_stops, ToneMap tone_map) {

@@ -11,7 +11,7 @@ enum class ToneMap { clamp, reinhard, filmic };
 
 /// One row of the table of tone maps: what combo box, command line and tests walk.
 struct ToneMapRow {
-  ToneMap tone_map;
+  ToneMap key;
   std::string_view id, label, source;
   /// Scales linear radiance, brings it into [0, 1] and encodes it as sRGB. Both spans have the
   /// same size.
@@ -19,10 +19,10 @@ struct ToneMapRow {
 };
 
 std::span<const ToneMapRow> tone_maps();
-const ToneMapRow& tone_map_row(ToneMap tone_map);
+const ToneMapRow& tone_map_row(ToneMap key);
 
-/// Throws std::runtime_error with the legal ids.
-ToneMap tone_map_from_id(std::string_view id);
+/// Throws std::invalid_argument that lists the legal ids.
+const ToneMapRow& find_tone_map(std::string_view id);
 
 /// The one way from linear radiance to display pixels, for the window and for files: times
 /// 2^exposure_stops, through the tone map, to sRGB rounded to 8 bits. Negative and NaN become 0,

@@ -18,8 +18,9 @@ namespace {
 void check(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error != RTC_ERROR_NONE) {
-    throw std::runtime_error(fmt::format("Embree: cannot build the scene (error {}{})", int(error),
-                                         error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
+    throw std::runtime_error(
+        fmt::format("Embree: cannot build the scene (error {}{})", int(error),
+                    error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
   }
 }
 
@@ -91,9 +92,9 @@ Accel::Accel(const Scene& scene) {
   scene_.reset(rtcNewScene(device.get()));
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
-    RTCGeometry geometry = std::visit(
-        [&](const auto& shape) { return make_geometry(device.get(), shape); },
-        scene.shapes[i].geometry);
+    RTCGeometry geometry =
+        std::visit([&](const auto& shape) { return make_geometry(device.get(), shape); },
+                   scene.shapes[i].geometry);
     rtcSetGeometryMask(geometry, ~0u);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_.get(), geometry, unsigned(i));

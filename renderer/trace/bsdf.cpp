@@ -53,7 +53,7 @@ BsdfValue evaluate_rough_conductor(const Bsdf& bsdf, glm::vec3 wo, glm::vec3 wi)
   return value;
 }
 
-BsdfSample sample_dielectric(const Bsdf& bsdf, glm::vec3 wo, float u_lobe) {
+BsdfSample sample_dielectric(const Bsdf& bsdf, glm::vec3 wo, float u) {
   BsdfSample s;
   s.specular = true;
   const float cos_i = std::abs(wo.z);
@@ -64,7 +64,7 @@ BsdfSample sample_dielectric(const Bsdf& bsdf, glm::vec3 wo, float u_lobe) {
   const float eta = wo.z > 0.0f ? ior : 1.0f / ior;
   float cos_t = 0.0f;
   const float reflectance = fresnel_dielectric(cos_i, eta, cos_t);
-  if (u_lobe < reflectance) {
+  if (u < reflectance) {
     s.wi = {-wo.x, -wo.y, wo.z};
     s.weight = bsdf.reflectance;
     return s;
@@ -99,9 +99,9 @@ BsdfValue evaluate(const Bsdf& bsdf, glm::vec3 wo, glm::vec3 wi) {
   return {bsdf.reflectance * pdf, pdf};
 }
 
-BsdfSample sample(const Bsdf& bsdf, glm::vec3 wo, float u_lobe, float u, float v) {
+BsdfSample sample(const Bsdf& bsdf, glm::vec3 wo, float u, float v) {
   if (bsdf.kind == MaterialKind::dielectric) {
-    return sample_dielectric(bsdf, wo, u_lobe);
+    return sample_dielectric(bsdf, wo, u);
   }
   BsdfSample s;
   const bool below = wo.z < 0.0f;

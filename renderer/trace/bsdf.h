@@ -41,8 +41,9 @@ inline bool is_specular(const Bsdf& bsdf) {
 /// Zero for specular materials and for directions on different sides.
 BsdfValue evaluate(const Bsdf& bsdf, glm::vec3 wo, glm::vec3 wi);
 
-/// `u_lobe` chooses between reflection and transmission, (u, v) the direction.
-BsdfSample sample(const Bsdf& bsdf, glm::vec3 wo, float u_lobe, float u, float v);
+/// (u, v) in [0, 1)² chooses the direction; for a dielectric, u between reflection and
+/// transmission.
+BsdfSample sample(const Bsdf& bsdf, glm::vec3 wo, float u, float v);
 
 /// Unpolarised Fresnel reflectance of a smooth dielectric. `cos_i` > 0; `eta` is the index on the
 /// far side over the index on the near side; `cos_t` receives the cosine of the transmitted angle,

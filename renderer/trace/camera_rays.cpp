@@ -39,8 +39,7 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
 }
 
 Ray CameraRays::ray(int x, int y, const Sampler::Draws& draws) const {
-  const glm::vec3 on_plane =
-      top_left_ + (float(x) + draws[0]) * dx_ + (float(y) + draws[1]) * dy_;
+  const glm::vec3 on_plane = top_left_ + (float(x) + draws[0]) * dx_ + (float(y) + draws[1]) * dy_;
   Ray ray{origin_, on_plane};
   if (lens_x_ != glm::vec3(0.0f)) {
     const glm::vec2 lens = square_to_disk(draws[2], draws[3]);

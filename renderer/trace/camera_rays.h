@@ -11,7 +11,7 @@ class CameraRays {
  public:
   CameraRays(const Camera& camera, int width, int height);
 
-  /// The ray of pixel (x, y), counted from the top left, with the first four `draws`: position in
+  /// The ray of pixel (x, y), counted from the top left, with its draws: position in
   /// the pixel (box filter) and on the lens.
   Ray ray(int x, int y, const Sampler::Draws& draws) const;
 

@@ -111,13 +111,19 @@ void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
   }
 }
 
-LightSample Lights::sample(glm::vec3 from, float u_select, float u, float v) const {
+LightSample Lights::sample(glm::vec3 from, float u, float v) const {
   LightSample s{};
   if (lights_.empty()) {
     return s;
   }
-  const auto chosen = std::upper_bound(cdf_.begin(), cdf_.end() - 1, u_select);
-  const Light& light = lights_[std::size_t(chosen - cdf_.begin())];
+  std::size_t chosen = 0;
+  if (lights_.size() > 1) {
+    chosen = std::size_t(std::upper_bound(cdf_.begin(), cdf_.end() - 1, u) - cdf_.begin());
+    // What is left of u within the light's interval is uniform again, and as well stratified.
+    const float below = chosen > 0 ? cdf_[chosen - 1] : 0.0f;
+    u = std::clamp((u - below) / (cdf_[chosen] - below), 0.0f, 0x1.fffffep-1f);
+  }
+  const Light& light = lights_[chosen];
   switch (light.kind) {
     case Kind::environment:
       s.direction = square_to_uniform_cap(u, v, -1.0f);
@@ -137,38 +143,25 @@ LightSample Lights::sample(glm::vec3 from, float u_select, float u, float v) con
 
 void Lights::sample_flat(const Light& light, glm::vec3 from, float u, float v,
                          LightSample& s) const {
-  Hit hit{};
-  hit.shape = light.shape;
-  hit.primitive = light.primitive;
   glm::vec2 p(u, v);
   if (light.kind == Kind::triangle) {
     // Folding the square keeps the stratification better than the square root: Heitz, "A
     // Low-Distortion Map Between Triangle and Square", 2019.
     p = v > u ? glm::vec2(0.5f * u, v - 0.5f * u) : glm::vec2(u - 0.5f * v, 0.5f * v);
-    hit.u = p.x;
-    hit.v = p.y;
   } else if (light.kind == Kind::disk) {
     p = square_to_disk(u, v);
-  } else if (u >= v) {
-    // The parallelogram's triangles (0,1,2) and (0,2,3), with barycentrics of their last two.
-    hit.u = u - v;
-    hit.v = v;
-  } else {
-    hit.primitive = 1;
-    hit.u = u;
-    hit.v = v - u;
   }
   const glm::vec3 to_light = light.origin + p.x * light.edge1 + p.y * light.edge2 - from;
   const float distance2 = glm::dot(to_light, to_light);
-  const float distance = std::sqrt(distance2);
-  s.direction = to_light / distance;
-  s.distance = distance * short_of_light;
-  const float cos_light = -glm::dot(s.direction, light.normal);
-  if (cos_light <= 0.0f || distance2 == 0.0f) {
+  const float facing = -glm::dot(to_light, light.normal);
+  if (!(facing > 0.0f)) {
     return;
   }
-  s.radiance = radiance_at(light, from + to_light, hit);
-  s.pdf = distance2 / (cos_light * light.area);
+  const float distance = std::sqrt(distance2);
+  s.direction = to_light * (1.0f / distance);
+  s.distance = distance * short_of_light;
+  s.radiance = radiance_at(light, from + to_light, p);
+  s.pdf = distance2 * distance / (facing * light.area);
 }
 
 void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
@@ -243,11 +236,22 @@ float Lights::environment_pdf() const {
                           : lights_[std::size_t(environment_)].probability * (1.0f / (4.0f * pi));
 }
 
-glm::vec3 Lights::radiance_at(const Light& light, glm::vec3 position, const Hit& hit) const {
+glm::vec3 Lights::radiance_at(const Light& light, glm::vec3 position, glm::vec2 on_edges) const {
   const Shape& shape = scene_->shapes[light.shape];
-  return shape.radiance.texture == Color::no_texture
-             ? shape.radiance.value
-             : color_at(*scene_, shape.radiance, uv_at(shape, position, hit));
+  if (shape.radiance.texture == Color::no_texture) {
+    return shape.radiance.value;
+  }
+  Hit hit{};
+  hit.primitive = light.primitive;
+  hit.u = on_edges.x;
+  hit.v = on_edges.y;
+  if (light.kind == Kind::parallelogram) {
+    // Its triangles (0,1,2) and (0,2,3), with the barycentrics of their last two corners.
+    hit.primitive = on_edges.x >= on_edges.y ? 0 : 1;
+    hit.u = hit.primitive == 0 ? on_edges.x - on_edges.y : on_edges.x;
+    hit.v = hit.primitive == 0 ? on_edges.y : on_edges.y - on_edges.x;
+  }
+  return color_at(*scene_, shape.radiance, uv_at(shape, position, hit));
 }
 
 }  // namespace quartet

@@ -22,8 +22,8 @@ class Lights {
   /// `scene` is referred to, and must outlive this.
   Lights(const Scene& scene, glm::vec3 bounds_min, glm::vec3 bounds_max);
 
-  /// `u_select` chooses the light, (u, v) the point on it.
-  LightSample sample(glm::vec3 from, float u_select, float u, float v) const;
+  /// (u, v) in [0, 1)² chooses the point; u the light too, by its place among the probabilities.
+  LightSample sample(glm::vec3 from, float u, float v) const;
 
   /// Density (1/sr) with which sample() finds the point `surface` of an emitting shape from `from`;
   /// `direction` is the unit vector there and `distance` the way.
@@ -53,7 +53,8 @@ class Lights {
   void choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max);
   void sample_sphere(const Light& light, glm::vec3 from, float u, float v, LightSample& s) const;
   void sample_flat(const Light& light, glm::vec3 from, float u, float v, LightSample& s) const;
-  glm::vec3 radiance_at(const Light& light, glm::vec3 position, const Hit& hit) const;
+  /// At a point of the light; `on_edges` is its place along the edges of a flat one.
+  glm::vec3 radiance_at(const Light& light, glm::vec3 position, glm::vec2 on_edges) const;
 
   const Scene* scene_;
   std::vector<Light> lights_;

@@ -37,9 +37,12 @@ inline bool leaks(const Surface& surface, glm::vec3 direction) {
 /// Direct light at a vertex, found by sampling a light; its share of the power heuristic.
 template <class Observer>
 glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Frame& frame,
-                     const Bsdf& bsdf, glm::vec3 wo, const Sampler::Draws& draws,
-                     Observer& observer) {
-  const LightSample light = scene.lights().sample(surface.position, draws[4], draws[0], draws[1]);
+                     const Bsdf& bsdf, glm::vec3 incoming, glm::vec3 wo,
+                     const Sampler::Draws& draws, Observer& observer) {
+  // A material reflects towards the side it is seen from; there the next ray will start too, so
+  // that both ways to a light begin at the same point.
+  const glm::vec3 origin = offset_origin(surface, -incoming);
+  const LightSample light = scene.lights().sample(origin, draws[0], draws[1]);
   if (light.radiance == glm::vec3(0.0f) || leaks(surface, light.direction)) {
     return glm::vec3(0.0f);
   }
@@ -47,14 +50,7 @@ glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Fram
   if (value.f_cos == glm::vec3(0.0f)) {
     return glm::vec3(0.0f);
   }
-  // From the offset origin to the point itself: along a parallel, a ray that meets the light at a
-  // grazing angle would meet it too early.
-  Ray shadow{offset_origin(surface, light.direction), light.direction, light.distance};
-  if (light.distance > 0.0f && light.distance < std::numeric_limits<float>::infinity()) {
-    const glm::vec3 way = (surface.position - shadow.origin) + light.distance * light.direction;
-    shadow.t_max = glm::length(way);
-    shadow.direction = way / shadow.t_max;
-  }
+  const Ray shadow{origin, light.direction, light.distance};
   observer.occluded(shadow);
   if (scene.accel().occluded(shadow)) {
     return glm::vec3(0.0f);
@@ -76,7 +72,6 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
   float eta_scale = 1.0f;
   // Of the direction that `ray` was sampled with; 0 where no light sample could have found it.
   float bsdf_pdf = 0.0f;
-  glm::vec3 previous = ray.origin;
   for (int depth = 1;; ++depth) {
     Hit hit;
     observer.closest_hit(ray);
@@ -91,8 +86,8 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     if (emitted != glm::vec3(0.0f)) {
       const float weight =
           NextEvent && bsdf_pdf > 0.0f
-              ? detail::power_heuristic(bsdf_pdf,
-                                        scene.lights().pdf(surface, previous, ray.direction, hit.t))
+              ? detail::power_heuristic(
+                    bsdf_pdf, scene.lights().pdf(surface, ray.origin, ray.direction, hit.t))
               : 1.0f;
       radiance += weight * throughput * emitted;
     }
@@ -105,10 +100,11 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     const glm::vec3 wo = frame.to_local(-ray.direction);
     const Sampler::Draws& draws = sampler.next();
     if (NextEvent && !is_specular(bsdf)) {
-      radiance += throughput * detail::next_event(scene, surface, frame, bsdf, wo, draws, observer);
+      radiance += throughput * detail::next_event(scene, surface, frame, bsdf, ray.direction, wo,
+                                                  draws, observer);
     }
 
-    const BsdfSample next = sample(bsdf, wo, draws[5], draws[2], draws[3]);
+    const BsdfSample next = sample(bsdf, wo, draws[2], draws[3]);
     throughput *= next.weight;
     if (throughput == glm::vec3(0.0f)) {
       return radiance;
@@ -121,13 +117,12 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
     if (depth >= detail::first_roulette_depth) {
       const float survival = std::min(
           detail::max_survival, eta_scale * std::max({throughput.x, throughput.y, throughput.z}));
-      if (draws[6] >= survival) {
+      if (sampler.independent() >= survival) {
         return radiance;
       }
       throughput /= survival;
     }
     bsdf_pdf = next.specular ? 0.0f : next.pdf;
-    previous = surface.position;
     ray = Ray{offset_origin(surface, direction), direction};
   }
 }

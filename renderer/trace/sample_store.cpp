@@ -80,7 +80,8 @@ SampleStore::SampleStore(int width, int height, std::size_t memory_budget)
       blocks_(std::make_unique<Blocks>()),
       seconds_per_sample_(records_.size(), 0.0f),
       timed_(records_.size(), 0),
-      tile_order_(pixels_by_tile(width, height)) {}
+      tile_order_(pixels_by_tile(width, height)) {
+}
 
 int SampleStore::size_class(std::uint32_t count) {
   return std::max(smallest_class, int(std::bit_width(count - 1)));
@@ -212,8 +213,8 @@ void SampleStore::trim(std::span<const std::uint32_t> used) {
 }
 
 std::size_t SampleStore::bytes() const {
-  return blocks_->bytes() + records_.size() * (sizeof(Record) + sizeof(float) +
-                                               2 * sizeof(std::uint32_t));
+  return blocks_->bytes() +
+         records_.size() * (sizeof(Record) + sizeof(float) + 2 * sizeof(std::uint32_t));
 }
 
 }  // namespace quartet

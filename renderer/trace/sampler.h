@@ -14,29 +14,35 @@ namespace quartet {
 /// independent.
 class Sampler {
  public:
-  static constexpr int dimensions_per_vertex = 8;
+  static constexpr int draws_per_call = 4;
 
-  /// What a path vertex draws; each number in [0, 1). Neighbours 0-1, 2-3, 4-5, 6-7 are jointly
-  /// stratified over the samples of a pixel.
-  using Draws = float[dimensions_per_vertex];
+  /// Four numbers in [0, 1). The first two are jointly stratified over the samples of a pixel, and
+  /// so are the last two.
+  using Draws = float[draws_per_call];
 
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index)
       : key_(pixel_key(mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu)),
                        pixel)),
         reversed_index_(reverse_bits(index)) {}
 
-  /// The draws of the next vertex; the first call is the camera's. Valid until the next call.
+  /// The numbers of the next vertex; the first call is the camera's. Valid until the next call.
   const Draws& next() {
-    if (vertex_ % vertices_per_block == 0) {
+    if (++vertex_ % vertices_per_block == 0) {
       generate();
     }
-    return block_[vertex_++ % vertices_per_block];
+    return block_[vertex_ % vertices_per_block];
+  }
+
+  /// A number of its own for the same vertex, not stratified: for decisions between going on and
+  /// ending, which gain nothing from it.
+  float independent() const {
+    return to_float(mix(mix(key_ + vertex_ * 0x9e3779b9u) ^ reversed_index_));
   }
 
  private:
-  // Two vertices at a time: one leaves the vector unit waiting for its multiplications.
-  static constexpr int vertices_per_block = 2;
-  static constexpr int lanes = vertices_per_block * dimensions_per_vertex;
+  // Two vertices at a time fill a vector of eight.
+  static constexpr std::uint32_t vertices_per_block = 2;
+  static constexpr std::uint32_t lanes = vertices_per_block * draws_per_call;
 
   /// A bijection of 32 bits with every output bit depending on every input bit (Wellons' lowbias32,
   /// improved constants).
@@ -84,8 +90,13 @@ class Sampler {
     return x;
   }
 
+  static constexpr float to_float(std::uint32_t bits) {
+    return float(std::int32_t(bits >> 8)) * 0x1p-24f;
+  }
+
+  /// Fills the block that begins with the current vertex.
   void generate() {
-    const std::uint32_t base = key_ + std::uint32_t(vertex_) * dimensions_per_vertex * 0x9e3779b9u;
+    const std::uint32_t base = key_ + vertex_ * draws_per_call * 0x9e3779b9u;
     std::uint32_t bits[lanes];
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
       const std::uint32_t pair_key = mix(base + (lane / 2) * 0x3c6ef372u + 0x5bd1e995u);
@@ -95,15 +106,15 @@ class Sampler {
       bits[lane] = reverse_bits(laine_karras(sobol, lane_key));
     }
     float* draws = &block_[0][0];
-    for (int lane = 0; lane < lanes; ++lane) {
-      draws[lane] = float(std::int32_t(bits[lane] >> 8)) * 0x1p-24f;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      draws[lane] = to_float(bits[lane]);
     }
   }
 
   std::uint32_t key_;
   std::uint32_t reversed_index_;
-  int vertex_ = 0;
-  alignas(64) Draws block_[vertices_per_block];
+  std::uint32_t vertex_ = ~0u;
+  alignas(32) Draws block_[vertices_per_block];
 };
 
 }  // namespace quartet

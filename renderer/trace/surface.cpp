@@ -40,67 +40,70 @@ glm::vec2 uv(const Disk& disk, glm::vec3 position, const Hit&) {
 // and places, met the surface that it left; at 2^-22 some did.
 constexpr float errors = 0x1p-19f;
 
-void refine(const Mesh& mesh, const Hit& hit, Surface& surface) {
-  const glm::uvec3 triangle = mesh.triangles[hit.primitive];
-  const glm::vec3 a = mesh.positions[triangle.x];
-  const glm::vec3 b = mesh.positions[triangle.y];
-  const glm::vec3 c = mesh.positions[triangle.z];
-  surface.position = (1.0f - hit.u - hit.v) * a + hit.u * b + hit.v * c;
-  surface.normal = glm::normalize(hit.normal);
-  surface.shading_normal = surface.normal;
-  surface.offset = errors * glm::dot(glm::abs(surface.normal),
+}  // namespace
+
+std::vector<Facet> facets_of(const Mesh& mesh) {
+  std::vector<Facet> facets;
+  facets.reserve(mesh.triangles.size());
+  for (const glm::uvec3 triangle : mesh.triangles) {
+    const glm::vec3 a = mesh.positions[triangle.x];
+    const glm::vec3 b = mesh.positions[triangle.y];
+    const glm::vec3 c = mesh.positions[triangle.z];
+    Facet facet{a, b - a, c - a, {}, 0.0f};
+    facet.normal = glm::normalize(glm::cross(facet.edge1, facet.edge2));
+    facet.offset = errors * glm::dot(glm::abs(facet.normal),
                                      glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c)));
-  if (mesh.normals.empty()) {
-    return;
+    facets.push_back(facet);
   }
-  const glm::vec3 normal = interpolate(mesh.normals, triangle, hit);
+  return facets;
+}
+
+Surface surface_at(const Facet& facet, const Hit& hit) {
+  return {.position = facet.corner + hit.u * facet.edge1 + hit.v * facet.edge2,
+          .normal = facet.normal,
+          .shading_normal = facet.normal,
+          .uv = glm::vec2(0.0f),
+          .offset = facet.offset,
+          .shape = hit.shape,
+          .primitive = hit.primitive};
+}
+
+Surface surface_at(const Sphere& sphere, const Ray& ray, const Hit& hit) {
+  const glm::vec3 outward = glm::normalize(ray.origin + hit.t * ray.direction - sphere.center);
+  const glm::vec3 normal = sphere.flip_normals ? -outward : outward;
+  return {.position = sphere.center + sphere.radius * outward,
+          .normal = normal,
+          .shading_normal = normal,
+          .uv = glm::vec2(0.0f),
+          .offset = errors * (glm::dot(glm::abs(normal), glm::abs(sphere.center)) + sphere.radius),
+          .shape = hit.shape,
+          .primitive = hit.primitive};
+}
+
+Surface surface_at(const Disk& disk, const Ray& ray, const Hit& hit) {
+  const glm::vec3 position = ray.origin + hit.t * ray.direction;
+  return {.position = position - glm::dot(position - disk.center, disk.normal) * disk.normal,
+          .normal = disk.normal,
+          .shading_normal = disk.normal,
+          .uv = glm::vec2(0.0f),
+          .offset = errors * glm::dot(glm::abs(disk.normal), glm::abs(disk.center) + disk.radius),
+          .shape = hit.shape,
+          .primitive = hit.primitive};
+}
+
+void interpolate_normal(const Mesh& mesh, const Ray& ray, const Hit& hit, Surface& surface) {
+  glm::vec3 normal = interpolate(mesh.normals, mesh.triangles[hit.primitive], hit);
+  normal = glm::dot(normal, surface.normal) < 0.0f ? -normal : normal;
   const float length = glm::length(normal);
-  if (length > 0.0f) {
+  const float side = glm::dot(ray.direction, normal) * glm::dot(ray.direction, surface.normal);
+  if (length > 0.0f && side > 0.0f) {
     surface.shading_normal = normal / length;
   }
-  if (glm::dot(surface.shading_normal, surface.normal) < 0.0f) {
-    surface.shading_normal = -surface.shading_normal;
-  }
 }
-
-void refine(const Sphere& sphere, const Hit&, Surface& surface) {
-  const glm::vec3 outward = glm::normalize(surface.position - sphere.center);
-  surface.position = sphere.center + sphere.radius * outward;
-  surface.normal = sphere.flip_normals ? -outward : outward;
-  surface.shading_normal = surface.normal;
-  surface.offset =
-      errors * (glm::dot(glm::abs(surface.normal), glm::abs(sphere.center)) + sphere.radius);
-}
-
-void refine(const Disk& disk, const Hit&, Surface& surface) {
-  surface.position -= glm::dot(surface.position - disk.center, disk.normal) * disk.normal;
-  surface.normal = disk.normal;
-  surface.shading_normal = disk.normal;
-  surface.offset = errors * glm::dot(glm::abs(disk.normal), glm::abs(disk.center) + disk.radius);
-}
-
-}  // namespace
 
 glm::vec2 uv_at(const Shape& shape, glm::vec3 position, const Hit& hit) {
   return std::visit([&](const auto& geometry) { return uv(geometry, position, hit); },
                     shape.geometry);
-}
-
-bool needs_uv(const Scene& scene, const Shape& shape) {
-  const Material& material = scene.materials[std::size_t(shape.material)];
-  const auto textured = [](const Color& color) { return color.texture != Color::no_texture; };
-  return textured(material.reflectance) || textured(material.transmittance) ||
-         (shape.emits && textured(shape.radiance));
-}
-
-Surface surface_at(const Shape& shape, bool with_uv, const Ray& ray, const Hit& hit) {
-  Surface surface;
-  surface.position = ray.origin + hit.t * ray.direction;
-  surface.shape = hit.shape;
-  surface.primitive = hit.primitive;
-  std::visit([&](const auto& geometry) { refine(geometry, hit, surface); }, shape.geometry);
-  surface.uv = with_uv ? uv_at(shape, surface.position, hit) : glm::vec2(0.0f);
-  return surface;
 }
 
 }  // namespace quartet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "renderer/scene/scene.h"
 #include "renderer/trace/accel.h"
@@ -18,13 +19,25 @@ struct Surface {
   std::uint32_t primitive;
 };
 
+/// What tracing wants to know of a triangle, worked out once and in one cache line.
+struct alignas(64) Facet {
+  glm::vec3 corner, edge1, edge2;
+  glm::vec3 normal;  ///< unit length
+  float offset;
+};
+
+std::vector<Facet> facets_of(const Mesh& mesh);
+
+Surface surface_at(const Facet& facet, const Hit& hit);
+Surface surface_at(const Sphere& sphere, const Ray& ray, const Hit& hit);
+Surface surface_at(const Disk& disk, const Ray& ray, const Hit& hit);
+
+/// Bends the shading normal as the normals of the mesh say, but never so far that the ray would
+/// meet the other side.
+void interpolate_normal(const Mesh& mesh, const Ray& ray, const Hit& hit, Surface& surface);
+
 /// Texture coordinates of a point on a shape; `hit` gives triangle and barycentrics of a mesh.
 glm::vec2 uv_at(const Shape& shape, glm::vec3 position, const Hit& hit);
-
-/// Whether any texture of the shape asks for uv.
-bool needs_uv(const Scene& scene, const Shape& shape);
-
-Surface surface_at(const Shape& shape, bool with_uv, const Ray& ray, const Hit& hit);
 
 /// A ray origin on the side of the surface that `direction` points to.
 inline glm::vec3 offset_origin(const Surface& surface, glm::vec3 direction) {

@@ -1,24 +1,38 @@
 #include "renderer/trace/trace_scene.h"
 
-#include "renderer/trace/color_at.h"
-
 namespace quartet {
+namespace {
+
+bool is_textured(const Shape& shape, const Material& material) {
+  const auto textured = [](const Color& color) { return color.texture != Color::no_texture; };
+  return textured(material.reflectance) || textured(material.transmittance) ||
+         (shape.emits && textured(shape.radiance));
+}
+
+}  // namespace
 
 TraceScene::TraceScene(Scene scene)
     : scene_(std::move(scene)),
       accel_(scene_),
       lights_(scene_, accel_.bounds_min(), accel_.bounds_max()) {
   for (const Shape& shape : scene_.shapes) {
-    needs_uv_.push_back(char(needs_uv(scene_, shape)));
+    const Material& material = scene_.materials[std::size_t(shape.material)];
+    const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+    records_.push_back({.shape = &shape,
+                        .material = &material,
+                        .facets = mesh ? facets_of(*mesh) : std::vector<Facet>(),
+                        .smooth = mesh && !mesh->normals.empty(),
+                        .textured = is_textured(shape, material),
+                        .emits = shape.emits});
   }
 }
 
-glm::vec3 TraceScene::emitted(const Surface& surface, glm::vec3 direction) const {
-  const Shape& shape = scene_.shapes[surface.shape];
-  if (!shape.emits || glm::dot(direction, surface.normal) >= 0.0f) {
-    return glm::vec3(0.0f);
+Surface TraceScene::surface_without_facets(const ShapeRecord& record, const Ray& ray,
+                                           const Hit& hit) {
+  if (const Sphere* sphere = std::get_if<Sphere>(&record.shape->geometry)) {
+    return surface_at(*sphere, ray, hit);
   }
-  return color_at(scene_, shape.radiance, surface.uv);
+  return surface_at(std::get<Disk>(record.shape->geometry), ray, hit);
 }
 
 }  // namespace quartet

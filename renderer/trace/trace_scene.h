@@ -5,6 +5,7 @@
 #include "renderer/scene/scene.h"
 #include "renderer/trace/accel.h"
 #include "renderer/trace/bsdf.h"
+#include "renderer/trace/color_at.h"
 #include "renderer/trace/lights.h"
 #include "renderer/trace/surface.h"
 
@@ -24,20 +25,45 @@ class TraceScene {
   const Lights& lights() const { return lights_; }
 
   Surface surface(const Ray& ray, const Hit& hit) const {
-    return surface_at(scene_.shapes[hit.shape], needs_uv_[hit.shape] != 0, ray, hit);
+    const ShapeRecord& record = records_[hit.shape];
+    Surface surface = record.facets.empty() ? surface_without_facets(record, ray, hit)
+                                            : surface_at(record.facets[hit.primitive], hit);
+    if (record.smooth) {
+      interpolate_normal(std::get<Mesh>(record.shape->geometry), ray, hit, surface);
+    }
+    if (record.textured) {
+      surface.uv = uv_at(*record.shape, surface.position, hit);
+    }
+    return surface;
   }
   Bsdf bsdf(const Surface& surface) const {
-    const int material = scene_.shapes[surface.shape].material;
-    return bsdf_at(scene_, scene_.materials[std::size_t(material)], surface.uv);
+    return bsdf_at(scene_, *records_[surface.shape].material, surface.uv);
   }
   /// Radiance that the surface itself sends against `direction`; only its front shines.
-  glm::vec3 emitted(const Surface& surface, glm::vec3 direction) const;
+  glm::vec3 emitted(const Surface& surface, glm::vec3 direction) const {
+    const ShapeRecord& record = records_[surface.shape];
+    return record.emits && glm::dot(direction, surface.normal) < 0.0f
+               ? color_at(scene_, record.shape->radiance, surface.uv)
+               : glm::vec3(0.0f);
+  }
 
  private:
+  /// What each hit asks of a shape; one a shape.
+  struct ShapeRecord {
+    const Shape* shape;
+    const Material* material;
+    std::vector<Facet> facets;  // of a mesh
+    bool smooth;                // a mesh with normals
+    bool textured;              // some colour of it depends on uv
+    bool emits;
+  };
+
+  static Surface surface_without_facets(const ShapeRecord& record, const Ray& ray, const Hit& hit);
+
   Scene scene_;
   Accel accel_;
   Lights lights_;
-  std::vector<char> needs_uv_;
+  std::vector<ShapeRecord> records_;
 };
 
 }  // namespace quartet

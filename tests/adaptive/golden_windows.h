@@ -28,7 +28,8 @@ struct GoldenWindow {
 inline std::vector<GoldenWindow> golden_windows() {
   std::ifstream file(QUARTET_TEST_DATA "/estimator-windows.json");
   std::vector<GoldenWindow> windows;
-  for (const auto& entry : nlohmann::json::parse(file).at("cases")) {
+  const auto document = nlohmann::json::parse(file);
+  for (const auto& entry : document.at("cases")) {
     GoldenWindow golden{.name = entry.at("name"),
                         .channels = {},
                         .contrast = entry.at("contrast"),

@@ -103,7 +103,9 @@ TEST(WindowKernels, AgreeWithManyBlackPixels) {
 }
 
 TEST(WindowKernels, GoldenWindows) {
-  for (const GoldenWindow& golden : golden_windows()) {
+  const auto windows = golden_windows();
+  ASSERT_EQ(windows.size(), 17u);
+  for (const GoldenWindow& golden : windows) {
     SCOPED_TRACE(golden.name);
     // The corner pixel of a 2 × 2 and the middle one of a 3 × 2 or 3 × 3 picture see it all.
     const std::size_t n = golden.window().size();

@@ -96,22 +96,22 @@ TEST(ColorMap, CoolwarmIsLightestInTheMiddle) {
 TEST(ColorMap, EveryRowClampsIsContinuousAndLeavesTheSpecialColoursAlone) {
   for (const ColorMapRow& row : color_maps()) {
     SCOPED_TRACE(row.id);
-    EXPECT_EQ(color_map_from_id(row.id), row.color_map);
-    EXPECT_EQ(&color_map_row(row.color_map), &row);
-    EXPECT_EQ(sample(row.color_map, -3.f), sample(row.color_map, 0.f));
-    EXPECT_EQ(sample(row.color_map, 3.f), sample(row.color_map, 1.f));
-    EXPECT_EQ(sample(row.color_map, std::numeric_limits<float>::quiet_NaN()), kNotANumberColor);
-    Rgba8 last = sample(row.color_map, 0.f);
+    EXPECT_EQ(find_color_map(row.id).key, row.key);
+    EXPECT_EQ(&color_map_row(row.key), &row);
+    EXPECT_EQ(sample(row.key, -3.f), sample(row.key, 0.f));
+    EXPECT_EQ(sample(row.key, 3.f), sample(row.key, 1.f));
+    EXPECT_EQ(sample(row.key, std::numeric_limits<float>::quiet_NaN()), kNotANumberColor);
+    Rgba8 last = sample(row.key, 0.f);
     for (int i = 0; i <= 1000; ++i) {
-      const Rgba8 c = sample(row.color_map, static_cast<float>(i) / 1000.f);
+      const Rgba8 c = sample(row.key, static_cast<float>(i) / 1000.f);
       EXPECT_LE(std::abs(c.r - last.r) + std::abs(c.g - last.g) + std::abs(c.b - last.b), 5) << i;
       EXPECT_NE(c, kNotANumberColor);
       EXPECT_NE(c, kCapColor);
       last = c;
     }
   }
-  EXPECT_EQ(error_of([] { color_map_from_id("jet"); }),
-            "unknown colour map 'jet'; legal are: turbo, viridis, report, coolwarm");
+  EXPECT_EQ(error_of([] { find_color_map("jet"); }),
+            "unknown colour map 'jet'; there are: turbo, viridis, report, coolwarm");
 }
 
 TEST(Heatmap, SpansMinToMax) {

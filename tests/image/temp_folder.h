@@ -44,7 +44,7 @@ template <class Action>
 std::string error_of(Action action) {
   try {
     action();
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
   return "";

@@ -56,7 +56,6 @@ struct ChiSquare {
 
 /// Pearson's test of counts against expected counts, which must have the same sum. Bins that expect
 /// less than 5 are too coarse for the chi-square distribution and are pooled, the emptiest first.
-/// A count where nothing at all is expected has p = 0.
 inline ChiSquare chi_square_test(std::span<const double> observed,
                                  std::span<const double> expected) {
   constexpr double smallest = 5.0;
@@ -71,9 +70,6 @@ inline ChiSquare chi_square_test(std::span<const double> observed,
   for (std::size_t i = 0; i < order.size(); ++i) {
     pooled_observed += observed[order[i]];
     pooled_expected += expected[order[i]];
-    if (pooled_expected == 0.0 && pooled_observed > 0.0) {
-      return {HUGE_VAL, 0, 0.0};
-    }
     // What is left after the last full bin stays with it rather than being dropped.
     const bool last = i + 1 == order.size();
     if (pooled_expected >= smallest || (last && pooled_expected > 0.0)) {
@@ -82,6 +78,9 @@ inline ChiSquare chi_square_test(std::span<const double> observed,
       ++bins;
       pooled_observed = pooled_expected = 0.0;
     }
+  }
+  if (pooled_expected == 0.0 && pooled_observed > 0.0) {
+    return {HUGE_VAL, 0, 0.0};
   }
   result.degrees = bins - 1;
   result.p = result.degrees > 0 ? upper_gamma(0.5 * result.degrees, 0.5 * result.statistic) : 1.0;

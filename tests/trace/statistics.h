@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace quartet::test {
@@ -14,6 +15,21 @@ inline double sidak_level(double family, double tests) {
 /// Probability that a standard normal lies at least this far from 0.
 inline double two_sided_p(double z) {
   return std::erfc(std::abs(z) / std::sqrt(2.0));
+}
+
+/// Probability that Student's t lies at least this far from 0: Abramowitz and Stegun 26.7.4. An odd
+/// number of degrees of freedom counts as the even one below.
+inline double two_sided_student_p(double t, int degrees) {
+  const int even = degrees - degrees % 2;
+  const double angle = std::atan(std::abs(t) / std::sqrt(double(even)));
+  const double cos2 = std::cos(angle) * std::cos(angle);
+  double term = 1.0;
+  double sum = 1.0;
+  for (int i = 2; i < even; i += 2) {
+    term *= cos2 * (i - 1.0) / i;
+    sum += term;
+  }
+  return std::max(0.0, 1.0 - std::sin(angle) * sum);
 }
 
 /// Mean and spread of a stream of numbers: Welford 1962.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string_view>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/trace/integrator.h"
+
+namespace quartet {
+
+/// A built-in scene at a size, ready to render.
+struct BenchScene {
+  std::shared_ptr<const TraceScene> scene;
+  RenderSettings settings;
+
+  BenchScene(std::string_view name, int width, int height)
+      : scene(std::make_shared<const TraceScene>(load_scene(find_scene(name)))),
+        settings(default_settings(scene->scene())) {
+    settings.width = width;
+    settings.height = height;
+  }
+
+  Lab lab(std::span<const SamplingPolicy> policies, int threads) const {
+    LabOptions options;
+    options.threads = threads;
+    return Lab(sample_source(scene, settings), settings.width, settings.height, policies, options);
+  }
+};
+
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace quartet

@@ -1,0 +1,71 @@
+// The estimators over a whole picture, one thread.
+
+#include <benchmark/benchmark.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "renderer/adaptive/estimator.h"
+#include "renderer/adaptive/policy.h"
+
+namespace quartet {
+namespace {
+
+constexpr int width = 960;
+constexpr int height = 540;
+
+Film noisy_film() {
+  Film film(width, height);
+  std::mt19937 random(1);
+  std::exponential_distribution<float> radiance(1.0f);
+  for (std::size_t i = 0; i < film.size(); ++i) {
+    const glm::vec3 sample(radiance(random), radiance(random), radiance(random));
+    film.add(i, {&sample, 1});
+  }
+  return film;
+}
+
+void per_pixel(benchmark::State& state) {
+  state.counters["s/pixel"] =
+      benchmark::Counter(double(width * height), benchmark::Counter::kIsIterationInvariantRate |
+                                                     benchmark::Counter::kInvert);
+}
+
+void estimate(benchmark::State& state, const Estimator& row) {
+  const Film film = noisy_film();
+  std::vector<float> error(std::size_t(row.channels) * film.size());
+  for (auto _ : state) {
+    row.estimate(film, error);
+    benchmark::DoNotOptimize(error.data());
+  }
+  per_pixel(state);
+}
+
+void plan(benchmark::State& state) {
+  const Film film = noisy_film();
+  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  std::vector<float> error(film.size());
+  estimator(policy.estimator).estimate(film, error);
+  Plan next;
+  for (auto _ : state) {
+    plan_next(policy, {width, height, error, film.counts(), 1}, next);
+    benchmark::DoNotOptimize(next.total);
+  }
+  per_pixel(state);
+}
+BENCHMARK(plan)->Name("plan/vote")->Unit(benchmark::kMillisecond);
+
+[[maybe_unused]] const bool registered = [] {
+  for (const Estimator& row : estimators()) {
+    if (row.estimate) {
+      benchmark::RegisterBenchmark(("estimate/" + std::string(row.id)).c_str(),
+                                   [&row](benchmark::State& state) { estimate(state, row); })
+          ->Unit(benchmark::kMillisecond);
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace quartet

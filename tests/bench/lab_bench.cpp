@@ -1,0 +1,79 @@
+// Four lanes over one store: against one lane, against four separate runs, and replayed.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "tests/bench/bench_scene.h"
+
+namespace quartet {
+namespace {
+
+constexpr std::uint32_t frames = 15;
+constexpr int width = 480;
+constexpr int height = 270;
+
+std::vector<SamplingPolicy> four_policies() {
+  std::vector<SamplingPolicy> policies;
+  for (const EstimatorId id :
+       {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
+    policies.push_back(default_policy(id));
+  }
+  return policies;
+}
+
+double run(Lab& lab) {
+  const auto start = std::chrono::steady_clock::now();
+  while (lab.frame() < frames) {
+    lab.run_frame();
+  }
+  return seconds_since(start);
+}
+
+void four_lanes(benchmark::State& state) {
+  const BenchScene bench("cornell-checker", width, height);
+  const auto policies = four_policies();
+  double together = 0.0;
+  double separate = 0.0;
+  double dearest = 0.0;
+  for (auto _ : state) {
+    Lab lab = bench.lab(policies, 2);
+    together += run(lab);
+    double most = 0.0;
+    for (const SamplingPolicy& policy : policies) {
+      Lab alone = bench.lab(std::span(&policy, 1), 2);
+      const double seconds = run(alone);
+      separate += seconds;
+      most = std::max(most, seconds);
+    }
+    dearest += most;
+  }
+  state.counters["to_dearest"] = together / dearest;
+  state.counters["to_separate"] = together / separate;
+}
+BENCHMARK(four_lanes)->Unit(benchmark::kMillisecond)->Iterations(2)->UseRealTime();
+
+/// Replays lanes of one lab out of stored samples.
+void replay(benchmark::State& state, std::size_t lanes, int threads) {
+  const BenchScene bench("cornell-checker", width, height);
+  const auto policies = four_policies();
+  Lab lab = bench.lab(policies, threads);
+  run(lab);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+      lab.set_policy(i, policies[i]);
+    }
+    run(lab);
+  }
+  const SampleStore& store = lab.store();
+  state.counters["B/sample"] = double(store.bytes()) / double(store.stored());
+}
+BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace quartet
