@@ -1,9 +1,11 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +16,7 @@
 #include "tests/trace/test_scenes.h"
 
 // Both integrators must give the same picture of every scene that comes with Quartet, each pixel
-// and each region within what noise explains. The false-alarm rate is 1e-3 over all pixels,
+// and each region within what noise explains, at a false-alarm rate of 1e-3 over all pixels,
 // regions, channels and scenes.
 //
 // What is compared are means of batches, each with a seed of its own, because samples of one seed
@@ -22,6 +24,12 @@
 // Student's t. Where light is found by luck the mean of a pixel and its spread are correlated (few
 // hits make both small), which would give t long tails; so the spread comes from other batches than
 // the mean: the first half judges the second, and the other way round.
+//
+// A mean is normal only as far as skewness allows. Batches with a skewness above 1 are not judged
+// on their own, only as parts of their regions: pixels that one path in thousands makes bright. At
+// that limit the mean of 63 batches has skewness 0.13, which makes the tail beyond 6 standard
+// errors up to exp(0.13 · 6³ / 6) = 100 times likelier (Cramér 1938); at the typical 0.3 it is 4
+// times. Hence the nominal rate of 1e-4.
 
 namespace quartet {
 namespace {
@@ -32,14 +40,17 @@ constexpr int width = 12;
 constexpr int half = 63;  // batches; an even number of degrees of freedom in each half
 constexpr int batches = 2 * half;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int mis_batch = 64;  // samples
-constexpr double noticeable = 1.25;
+constexpr int mis_batch = 64;         // samples
+constexpr double noticeable = 1.5;    // factor on a quarter of the picture
+constexpr double least_judged = 0.2;  // share of pixels and regions
 #else
 constexpr int mis_batch = 256;
 constexpr double noticeable = 1.1;
+constexpr double least_judged = 0.4;
 #endif
 constexpr int kajiya_batch = 3 * mis_batch / 2;
-constexpr double family = 1e-3;
+constexpr double family = 1e-4;
+constexpr double largest_skewness = 1.0;
 // A light of the radiance 1800 that one path in 200 000 finds would need billions of paths.
 // Transport is linear in each light's radiance, so a scene with dimmer small lights tests the same
 // code.
@@ -103,38 +114,65 @@ Moments moments(const Batches& values, int channel, int first) {
   return result;
 }
 
-struct Disagreement {
-  std::string where;
-  double p;
+double skewness(const Batches& values, int channel) {
+  Moments all;
+  for (const glm::dvec3& value : values) {
+    all.add(value[channel]);
+  }
+  double cubes = 0.0;
+  for (const glm::dvec3& value : values) {
+    cubes += std::pow(value[channel] - all.mean(), 3.0) / double(all.count());
+  }
+  return all.variance() > 0.0 ? cubes / std::pow(all.variance(), 1.5) : 0.0;
+}
+
+struct Comparison {
+  struct Test {
+    std::string where;
+    double p;
+  };
+  std::vector<Test> tests;
+  int too_skewed = 0;
+
+  void add(const Batches& a, const Batches& b, const std::string& where);
+  std::vector<Test> failures(double level) const;
 };
 
-void compare(const Batches& a, const Batches& b, const std::string& where,
-             std::vector<Disagreement>& tests) {
+void Comparison::add(const Batches& a, const Batches& b, const std::string& where) {
   for (int channel = 0; channel < 3; ++channel) {
+    if (std::max(skewness(a, channel), skewness(b, channel)) > largest_skewness) {
+      ++too_skewed;
+      continue;
+    }
     for (const int first : {0, half}) {
-      const double difference =
-          moments(a, channel, first).mean() - moments(b, channel, first).mean();
+      const double mean = moments(a, channel, first).mean();
+      const double difference = mean - moments(b, channel, first).mean();
       const double error = std::sqrt(moments(a, channel, half - first).variance_of_mean() +
                                      moments(b, channel, half - first).variance_of_mean());
       // Where no light arrives, or all samples are alike, both must say the same.
-      const double rounding = 1e-6 * moments(a, channel, first).mean();
-      const double p = std::abs(difference) <= rounding
+      const double p = std::abs(difference) <= 1e-6 * mean
                            ? 1.0
                            : two_sided_student_p(difference / error, half - 1);
-      tests.push_back({where + " channel " + std::to_string(channel) + " difference " +
-                           std::to_string(difference) + " ± " + std::to_string(error),
+      tests.push_back({fmt::format("{} channel {}: {:.3g} and {:.3g} ± {:.2g}", where, channel,
+                                   mean, mean - difference, error),
                        p});
     }
   }
 }
 
+std::vector<Comparison::Test> Comparison::failures(double level) const {
+  std::vector<Test> failed;
+  std::copy_if(tests.begin(), tests.end(), std::back_inserter(failed),
+               [&](const Test& test) { return !(test.p >= level); });
+  return failed;
+}
+
 /// All tests of two pictures: every pixel, 4 × 3 and 2 × 2 regions, the whole.
-std::vector<Disagreement> compare(const Picture& a, const Picture& b, const std::string& scene) {
-  std::vector<Disagreement> tests;
+Comparison compare(const Picture& a, const Picture& b, const std::string& scene) {
+  Comparison comparison;
   for (int i = 0; i < a.width * a.height; ++i) {
-    compare(a.pixels[std::size_t(i)], b.pixels[std::size_t(i)],
-            scene + " pixel " + std::to_string(i % a.width) + "," + std::to_string(i / a.width),
-            tests);
+    comparison.add(a.pixels[std::size_t(i)], b.pixels[std::size_t(i)],
+                   fmt::format("{} pixel {},{}", scene, i % a.width, i / a.width));
   }
   for (const auto& [columns, rows] : {std::pair{4, 3}, {2, 2}, {1, 1}}) {
     for (int row = 0; row < rows; ++row) {
@@ -143,21 +181,12 @@ std::vector<Disagreement> compare(const Picture& a, const Picture& b, const std:
         const int x1 = (column + 1) * a.width / columns;
         const int y0 = row * a.height / rows;
         const int y1 = (row + 1) * a.height / rows;
-        compare(region(a, x0, x1, y0, y1), region(b, x0, x1, y0, y1),
-                scene + " pixels " + std::to_string(x0) + "," + std::to_string(y0) + " to " +
-                    std::to_string(x1 - 1) + "," + std::to_string(y1 - 1),
-                tests);
+        comparison.add(region(a, x0, x1, y0, y1), region(b, x0, x1, y0, y1),
+                       fmt::format("{} pixels {},{} to {},{}", scene, x0, y0, x1 - 1, y1 - 1));
       }
     }
   }
-  return tests;
-}
-
-std::vector<Disagreement> failures(const std::vector<Disagreement>& tests, double level) {
-  std::vector<Disagreement> failed;
-  std::copy_if(tests.begin(), tests.end(), std::back_inserter(failed),
-               [&](const Disagreement& test) { return !(test.p >= level); });
-  return failed;
+  return comparison;
 }
 
 void write_picture(const Picture& picture, const std::string& name) {
@@ -203,36 +232,37 @@ Picture brightened(Picture picture, double factor) {
 TEST(IntegratorsAgree, OnEveryScene) {
   const std::vector<std::string> names = builtin_scenes();
   ASSERT_GE(names.size(), 5u);
-  int tests_at_all = 0;
   for (const std::string& name : names) {
     const TraceScene scene(with_lights_capped(load_scene(find_scene(name))));
     RenderSettings settings = default_settings(scene.scene());
     settings.height = std::max(3, width * settings.height / settings.width);
     settings.width = width;
     settings.seed = 1000;
-    // Where nothing but roulette makes noise, an eighth of the samples shows more than elsewhere.
-    const int share = name == "furnace" ? 8 : 1;
+    // Where nothing but roulette makes noise, a quarter of the samples shows more than elsewhere.
+    const int share = name == "furnace" ? 4 : 1;
     settings.integrator = IntegratorId::kajiya;
     const Picture kajiya = render(scene, settings, kajiya_batch / share);
     settings.seed = 2000;
     settings.integrator = IntegratorId::mis;
     const Picture mis = render(scene, settings, mis_batch / share);
 
-    const std::vector<Disagreement> tests = compare(kajiya, mis, name);
-    const double level = sidak_level(family, double(tests.size() * names.size()));
-    const std::vector<Disagreement> failed = failures(tests, level);
-    for (const Disagreement& test : failed) {
+    const Comparison comparison = compare(kajiya, mis, name);
+    const double number = 2.0 * 3.0 * double(kajiya.pixels.size() + 17) * double(names.size());
+    const double level = sidak_level(family, number);
+    const auto failed = comparison.failures(level);
+    for (const Comparison::Test& test : failed) {
       ADD_FAILURE() << test.where << ", p = " << test.p;
     }
     if (!failed.empty()) {
       write_picture(kajiya, name + "-kajiya");
       write_picture(mis, name + "-mis");
     }
-    tests_at_all += int(tests.size());
-    EXPECT_FALSE(failures(compare(kajiya, brightened(mis, noticeable), name), level).empty())
-        << name << ": a quarter of the picture may be wrong unnoticed";
+    const double judged = double(comparison.tests.size()) / 2.0;
+    EXPECT_GT(judged / (judged + comparison.too_skewed), least_judged) << name;
+    // The same test must notice a quarter of the picture that is wrong.
+    EXPECT_FALSE(compare(kajiya, brightened(mis, noticeable), name).failures(level).empty())
+        << name;
   }
-  EXPECT_GT(tests_at_all, 3000);
 }
 
 }  // namespace

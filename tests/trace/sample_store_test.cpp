@@ -1,6 +1,7 @@
 #include "renderer/trace/sample_store.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -312,6 +313,8 @@ TEST(SampleStoreThreads, AnyNumberOfThreadsGivesTheSameSamples) {
   for (std::size_t p = 0; p < pixels; ++p) {
     end[p] = std::uint32_t(1 + p % 5);
   }
+  // More threads than processors too.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   std::vector<glm::vec3> alone;
   for (const int threads : {1, 2, 8}) {
     tbb::task_arena arena(threads);
