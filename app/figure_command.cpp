@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/number_check.h"
 #include "app/progress.h"
 #include "app/run_options.h"
 #include "app/run_record.h"
@@ -133,7 +134,7 @@ void add_figure_command(CLI::App& app, const Program& program) {
   command->add_option("--tone-map", options->tone_map, "clamp, reinhard or filmic")
       ->capture_default_str();
   command->add_option("--exposure", options->exposure, "In stops")
-      ->check(CLI::Range(-100.0f, 100.0f))
+      ->check(number_between(-100.0, 100.0))
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
   command->footer(

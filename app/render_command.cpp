@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/number_check.h"
 #include "app/progress.h"
 #include "app/run_options.h"
 #include "app/run_record.h"
@@ -132,13 +133,13 @@ void add_render_command(CLI::App& app, const Program& program) {
       ->add_option("--threshold", options->thresholds,
                    "One number, or three for contrast: R,G,B; the estimator's default if not given")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
   command->add_option("--frames", options->frames, "Stop after so many rounds of sampling")
       ->check(CLI::Range(1u, 1u << 31));
   command->add_option("--spp", options->spp, "Stop at this mean of samples per pixel")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
   command->add_option("--seconds", options->seconds, "Stop after so much time spent on the lane")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
   command->add_option("-o,--output", options->output, "A .exr with all channels, or a .png")
       ->required();
   command->footer(

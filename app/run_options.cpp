@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "app/commands.h"
+#include "app/number_check.h"
 #include "renderer/scene/load_scene.h"
 
 namespace quartet {
@@ -84,7 +85,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
   command.add_option("--memory", options.memory_gib, "For stored samples, in GiB")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(number_between(0.001, 1e6))
       ->capture_default_str();
   command.add_option("--policy", options.policy, "How errors become sample counts: vote")
       ->capture_default_str();
@@ -92,7 +93,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       .add_option("--multiplier", options.multiplier,
                   "vote: extra samples for each vote; 1 is the text of the 2021 report, 0.5 its "
                   "pictures")
-      ->check(CLI::Range(0.0f, 1000.0f))
+      ->check(number_between(0.0, 1000.0))
       ->capture_default_str();
   command.add_flag("--stochastic-rounding", options.stochastic_rounding,
                    "vote: round multiplier x votes at random instead of down");
