@@ -15,7 +15,7 @@ TEST(BuiltinScenes, AreFoundByAnyOfTheirNames) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
     const auto path = std::filesystem::path(QUARTET_SCENES_DIR) / (name + ".xml");
     EXPECT_EQ(find_scene(name), path);
-    EXPECT_EQ(find_scene("scenes/" + name + ".xml"), path);
+    EXPECT_TRUE(std::filesystem::equivalent(find_scene("scenes/" + name + ".xml"), path));
     EXPECT_EQ(find_scene(path.string()), path);
   }
   try {
