@@ -15,10 +15,6 @@ double sample_seconds(const SampleStore& store, std::span<const std::uint32_t> t
   return seconds;
 }
 
-// Samples of neighbouring pixels lie anywhere in the store. Asked for this far ahead they have come
-// when they are wanted; without it, a replay does nothing but wait for memory.
-constexpr std::size_t prefetch_pixels = 16;
-
 }  // namespace
 
 Lane::Lane(int width, int height, const SamplingPolicy& policy, FilmStatistics statistics)
@@ -47,13 +43,22 @@ void Lane::advance(const SampleStore& store) {
 }
 
 void Lane::take_samples(const SampleStore& store) {
-  for (std::size_t pixel = 0; pixel < taken_.size(); ++pixel) {
-    if (const std::size_t later = pixel + prefetch_pixels; later < taken_.size()) {
-      store.prefetch(later, taken_[later]);
+  // Asked for this far ahead, samples have come when they are wanted; else a replay does nothing
+  // but wait for memory.
+  constexpr std::size_t ahead = 32;
+  const std::span<const std::uint32_t> pixels = store.pixels();
+  std::vector<glm::vec3> samples;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (i + ahead < pixels.size()) {
+      const std::uint32_t later = pixels[i + ahead];
+      store.prefetch(later, taken_[later], plan_.wanted[later]);
     }
+    const std::uint32_t pixel = pixels[i];
     const std::uint32_t wanted = plan_.wanted[pixel];
     if (wanted > 0) {
-      film_.add(pixel, store.samples(pixel, taken_[pixel], taken_[pixel] + wanted));
+      samples.resize(wanted);
+      store.read(pixel, taken_[pixel], samples);
+      film_.add(pixel, samples);
       taken_[pixel] += wanted;
     }
   }

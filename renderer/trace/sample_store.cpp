@@ -1,11 +1,12 @@
 #include "renderer/trace/sample_store.h"
 
+#include <sys/mman.h>
 #include <x86intrin.h>
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <chrono>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -14,118 +15,105 @@
 namespace quartet {
 namespace {
 
-// Neighbouring pixels meet the same part of the hierarchy.
-constexpr int tile_size = 16;
 // Below this many paths a task costs more to hand out than it gains.
 constexpr std::size_t grain_pixels = 64;
-constexpr int smallest_class = 2;
-
-std::vector<std::uint32_t> pixels_by_tile(int width, int height) {
-  std::vector<std::uint32_t> order;
-  order.reserve(std::size_t(width) * std::size_t(height));
-  for (int ty = 0; ty < height; ty += tile_size) {
-    for (int tx = 0; tx < width; tx += tile_size) {
-      for (int y = ty; y < std::min(ty + tile_size, height); ++y) {
-        for (int x = tx; x < std::min(tx + tile_size, width); ++x) {
-          order.push_back(std::uint32_t(y) * std::uint32_t(width) + std::uint32_t(x));
-        }
-      }
-    }
-  }
-  return order;
-}
 
 }  // namespace
 
-glm::vec3* SampleStore::Blocks::allocate(int size_class) {
-  const std::size_t samples = std::size_t(1) << size_class;
-  if (size_class > largest_small) {
-    large_.push_back(std::make_unique_for_overwrite<glm::vec3[]>(samples));
-    bytes_ += samples * sizeof(glm::vec3);
-    return large_.back().get();
+glm::vec3* SampleStore::Planes::allocate() {
+  if (!free_.empty()) {
+    glm::vec3* plane = free_.back();
+    free_.pop_back();
+    return plane;
   }
-  auto& free = free_[std::size_t(size_class)];
-  if (!free.empty()) {
-    glm::vec3* block = free.back();
-    free.pop_back();
-    return block;
+  if (used_ == slab_planes) {
+    void* memory = std::aligned_alloc(slab_bytes, slab_bytes);
+    if (!memory) {
+      throw std::bad_alloc();
+    }
+    madvise(memory, slab_bytes, MADV_HUGEPAGE);  // a wish; without it all works, slower
+    slabs_.emplace_back(static_cast<glm::vec3*>(memory));
+    used_ = 0;
   }
-  if (slab_used_ + samples > slab_samples) {
-    slabs_.push_back(std::make_unique_for_overwrite<glm::vec3[]>(slab_samples));
-    bytes_ += slab_samples * sizeof(glm::vec3);
-    slab_used_ = 0;
-  }
-  glm::vec3* block = slabs_.back().get() + slab_used_;
-  slab_used_ += samples;
-  return block;
-}
-
-void SampleStore::Blocks::release(glm::vec3* block, int size_class) {
-  if (size_class <= largest_small) {
-    free_[std::size_t(size_class)].push_back(block);
-    return;
-  }
-  const auto found = std::find_if(large_.begin(), large_.end(),
-                                  [&](const auto& owner) { return owner.get() == block; });
-  assert(found != large_.end());
-  large_.erase(found);
-  bytes_ -= (std::size_t(1) << size_class) * sizeof(glm::vec3);
+  return slabs_.back().get() + plane_samples * used_++;
 }
 
 SampleStore::SampleStore(int width, int height, std::size_t memory_budget)
     : width_(width),
       height_(height),
       memory_budget_(memory_budget),
-      records_(std::size_t(width) * std::size_t(height)),
-      blocks_(std::make_unique<Blocks>()),
-      seconds_per_sample_(records_.size(), 0.0f),
-      timed_(records_.size(), 0),
-      tile_order_(pixels_by_tile(width, height)) {
+      places_(std::size_t(width) * std::size_t(height)),
+      ranges_(places_.size()),
+      seconds_per_sample_(places_.size(), 0.0f),
+      timed_(places_.size(), 0) {
+  const auto columns = std::uint32_t(width);
+  const auto rows = std::uint32_t(height);
+  for (std::uint32_t top = 0; top < rows; top += tile_size) {
+    for (std::uint32_t left = 0; left < columns; left += tile_size) {
+      for (std::uint32_t y = top; y < std::min(top + tile_size, rows); ++y) {
+        for (std::uint32_t x = left; x < std::min(left + tile_size, columns); ++x) {
+          const std::uint32_t pixel = y * columns + x;
+          places_[pixel] = {std::uint32_t(tiles_.size()), (y - top) * tile_size + (x - left)};
+          pixels_.push_back(pixel);
+        }
+      }
+      tiles_.emplace_back();
+    }
+  }
 }
 
-int SampleStore::size_class(std::uint32_t count) {
-  return std::max(smallest_class, int(std::bit_width(count - 1)));
+/// Gives the tile planes for samples [begin, end).
+void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end) {
+  if (tile.planes.empty()) {
+    tile.base = begin;
+  }
+  if (begin < tile.base) {
+    tile.planes.insert(tile.planes.begin(), tile.base - begin, nullptr);
+    tile.base = begin;
+  }
+  if (end - tile.base > tile.planes.size()) {
+    tile.planes.resize(end - tile.base, nullptr);
+  }
+  for (std::uint32_t i = begin; i < end; ++i) {
+    glm::vec3*& plane = tile.planes[i - tile.base];
+    if (!plane) {
+      plane = planes_.allocate();
+    }
+  }
 }
 
-/// Gives the record room for `count` samples, keeping those it has.
-void SampleStore::reserve(Record& record, std::uint32_t count) {
-  const int wanted = size_class(count);
-  if (record.data && wanted <= record.size_class) {
-    return;
+void SampleStore::release_planes_below(Tile& tile, std::uint32_t index) {
+  const std::size_t count =
+      index > tile.base ? std::min<std::size_t>(index - tile.base, tile.planes.size()) : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (tile.planes[i]) {
+      planes_.release(tile.planes[i]);
+    }
   }
-  glm::vec3* data = blocks_->allocate(wanted);
-  if (record.data) {
-    std::copy_n(record.data, record.count, data);
-    blocks_->release(record.data, record.size_class);
-  }
-  record.data = data;
-  record.size_class = wanted;
+  tile.planes.erase(tile.planes.begin(), tile.planes.begin() + std::ptrdiff_t(count));
+  tile.base += std::uint32_t(count);
 }
 
-void SampleStore::clear(Record& record) {
-  if (record.data) {
-    blocks_->release(record.data, record.size_class);
-  }
-  stored_ -= record.count;
-  record = {};
+void SampleStore::clear(std::size_t pixel) {
+  stored_ -= ranges_[pixel].end - ranges_[pixel].first;
+  ranges_[pixel] = {};
 }
 
 std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32_t> begin,
                                                      std::span<const std::uint32_t> end) {
   std::vector<Job> jobs;
-  for (const std::uint32_t pixel : tile_order_) {
+  for (const std::uint32_t pixel : pixels_) {
     if (begin[pixel] >= end[pixel]) {
       continue;
     }
-    Record& record = records_[pixel];
-    if (begin[pixel] < record.first || begin[pixel] > record.first + record.count) {
-      clear(record);
-      record.first = begin[pixel];
+    Range& range = ranges_[pixel];
+    if (begin[pixel] < range.first || begin[pixel] > range.end) {
+      clear(pixel);
+      range = {begin[pixel], begin[pixel]};
     }
-    const std::uint32_t available = record.first + record.count;
-    if (end[pixel] > available) {
-      reserve(record, end[pixel] - record.first);
-      jobs.push_back({pixel, end[pixel] - available});
+    if (end[pixel] > range.end) {
+      make_planes(tiles_[places_[pixel].tile], range.end, end[pixel]);
+      jobs.push_back({pixel, end[pixel] - range.end});
     }
   }
   return jobs;
@@ -133,7 +121,7 @@ std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32
 
 bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
                           const SampleSource& source, std::stop_token stop) {
-  assert(begin.size() == records_.size() && end.size() == records_.size());
+  assert(begin.size() == ranges_.size() && end.size() == ranges_.size());
   const std::vector<Job> jobs = plan_pass(begin, end);
   if (jobs.empty()) {
     return true;
@@ -144,12 +132,18 @@ bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const 
     if (stop.stop_requested()) {
       return;
     }
+    std::vector<glm::vec3> radiance;
     std::uint64_t before = __rdtsc();
     for (std::size_t i = first; i != last; ++i) {
-      const Record& record = records_[jobs[i].pixel];
-      const int x = int(jobs[i].pixel % std::uint32_t(width_));
-      const int y = int(jobs[i].pixel / std::uint32_t(width_));
-      source(x, y, record.first + record.count, {record.data + record.count, jobs[i].count});
+      const auto [pixel, count] = jobs[i];
+      const Place place = places_[pixel];
+      const Tile& tile = tiles_[place.tile];
+      const std::uint32_t index = ranges_[pixel].end;
+      radiance.resize(count);
+      source(int(pixel) % width_, int(pixel) / width_, index, radiance);
+      for (std::uint32_t k = 0; k < count; ++k) {
+        tile.planes[index + k - tile.base][place.offset] = radiance[k];
+      }
       const std::uint64_t after = __rdtsc();
       ticks[i] = after - before;
       before = after;
@@ -172,7 +166,7 @@ void SampleStore::finish_pass(std::span<const Job> jobs, std::span<const std::ui
       continue;  // the pass was stopped before this pixel
     }
     const auto [pixel, count] = jobs[i];
-    records_[pixel].count += count;
+    ranges_[pixel].end += count;
     stored_ += count;
     traced_ += count;
     timed_[pixel] += count;
@@ -184,37 +178,42 @@ void SampleStore::finish_pass(std::span<const Job> jobs, std::span<const std::ui
 }
 
 void SampleStore::trim(std::span<const std::uint32_t> used) {
-  assert(used.size() == records_.size());
+  assert(used.size() == ranges_.size());
   if (bytes() <= memory_budget_) {
     return;
   }
   partial_ = true;
-  // Into new slabs, because the old ones are full of holes.
-  auto old = std::exchange(blocks_, std::make_unique<Blocks>());
-  for (std::size_t pixel = 0; pixel < records_.size(); ++pixel) {
-    const Record from = std::exchange(records_[pixel], {});
-    const std::uint32_t end = from.first + from.count;
-    Record& to = records_[pixel];
-    to.first = std::clamp(used[pixel], from.first, end);
-    stored_ -= to.first - from.first;
-    if (to.first < end) {
-      reserve(to, end - to.first);
-      to.count = end - to.first;
-      std::copy_n(from.data + (to.first - from.first), to.count, to.data);
-    }
+  std::vector<std::uint32_t> needed(tiles_.size(), UINT32_MAX);
+  for (std::size_t pixel = 0; pixel < ranges_.size(); ++pixel) {
+    Range& range = ranges_[pixel];
+    const std::uint32_t first = std::clamp(used[pixel], range.first, range.end);
+    stored_ -= first - range.first;
+    range.first = first;
+    needed[places_[pixel].tile] = std::min(needed[places_[pixel].tile], first);
+  }
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+    release_planes_below(tiles_[tile], needed[tile]);
   }
   // Lanes so far apart that what lies between them fills the budget: trace it again when wanted.
   if (bytes() > memory_budget_) {
-    for (Record& record : records_) {
-      clear(record);
+    for (std::size_t pixel = 0; pixel < ranges_.size(); ++pixel) {
+      clear(pixel);
     }
-    blocks_ = std::make_unique<Blocks>();
+    for (Tile& tile : tiles_) {
+      tile = {};
+    }
+    planes_ = {};
   }
 }
 
 std::size_t SampleStore::bytes() const {
-  return blocks_->bytes() +
-         records_.size() * (sizeof(Record) + sizeof(float) + 2 * sizeof(std::uint32_t));
+  std::size_t pointers = 0;
+  for (const Tile& tile : tiles_) {
+    pointers += tile.planes.capacity() * sizeof(glm::vec3*);
+  }
+  constexpr std::size_t per_pixel =
+      sizeof(Place) + sizeof(Range) + sizeof(float) + 2 * sizeof(std::uint32_t);
+  return planes_.bytes() + pointers + tiles_.size() * sizeof(Tile) + ranges_.size() * per_pixel;
 }
 
 }  // namespace quartet

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
@@ -34,18 +34,26 @@ class SampleStore {
   bool require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
                const SampleSource& source, std::stop_token stop = {});
 
-  /// Samples [begin, end) of a pixel, which must be available.
-  std::span<const glm::vec3> samples(std::size_t pixel, std::uint32_t begin,
-                                     std::uint32_t end) const {
-    const Record& record = records_[pixel];
-    return {record.data + (begin - record.first), end - begin};
+  /// Copies samples begin, begin + 1, … of a pixel, which must be available, into `out`.
+  void read(std::size_t pixel, std::uint32_t begin, std::span<glm::vec3> out) const {
+    const Place place = places_[pixel];
+    const Tile& tile = tiles_[place.tile];
+    for (std::uint32_t i = 0; i < out.size(); ++i) {
+      out[i] = tile.planes[begin + i - tile.base][place.offset];
+    }
   }
 
-  /// Fetches sample `begin` of a pixel into the cache, if it is there.
-  void prefetch(std::size_t pixel, std::uint32_t begin) const {
-    const Record& record = records_[pixel];
-    __builtin_prefetch(record.data + (begin - record.first));
+  /// Fetches `count` samples of a pixel from `begin` on, which must be available, into the cache.
+  void prefetch(std::size_t pixel, std::uint32_t begin, std::uint32_t count) const {
+    const Place place = places_[pixel];
+    const Tile& tile = tiles_[place.tile];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      __builtin_prefetch(tile.planes[begin + i - tile.base] + place.offset);
+    }
   }
+
+  /// Every pixel once, tile by tile: the order in which samples lie in memory.
+  std::span<const std::uint32_t> pixels() const { return pixels_; }
 
   /// Forgets samples below used[p] of each pixel if the store is over its budget.
   void trim(std::span<const std::uint32_t> used);
@@ -56,36 +64,56 @@ class SampleStore {
 
   std::uint64_t traced() const { return traced_; }  ///< samples, since construction
   std::uint64_t stored() const { return stored_; }  ///< samples, now
-  std::size_t bytes() const;                        ///< memory held
+  std::size_t bytes() const;                        ///< memory in use
   double seconds() const { return seconds_; }       ///< wall-clock time spent tracing
   /// Whether samples were ever forgotten, so that a replay must trace them again.
   bool partial() const { return partial_; }
 
  private:
-  /// A run of samples of one pixel in one block.
-  struct Record {
-    glm::vec3* data = nullptr;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    int size_class = 0;  // of the block, where there is one
+  static constexpr std::uint32_t tile_size = 8;
+  static constexpr std::size_t plane_samples = tile_size * tile_size;
+
+  /// Samples of one tile: planes[i] holds number base + i of each of its pixels, or is null where
+  /// none of them has that sample. Neighbours want the same numbers at the same time, so that a
+  /// replay reads memory in order.
+  struct Tile {
+    std::uint32_t base = 0;
+    std::vector<glm::vec3*> planes;
   };
 
-  /// Blocks of 2^k samples. Small ones come from slabs and go back to a list of their size.
-  class Blocks {
+  struct Place {
+    std::uint32_t tile;
+    std::uint32_t offset;  // in a plane
+  };
+
+  /// Samples [first, end) of a pixel are here.
+  struct Range {
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+  };
+
+  /// Planes, cut from slabs.
+  class Planes {
    public:
-    glm::vec3* allocate(int size_class);
-    void release(glm::vec3* block, int size_class);
-    std::size_t bytes() const { return bytes_; }
+    glm::vec3* allocate();
+    void release(glm::vec3* plane) { free_.push_back(plane); }
+    /// Of the planes in use; what has been released waits to be used again.
+    std::size_t bytes() const {
+      const std::size_t cut = slabs_.size() * slab_planes - (slab_planes - used_);
+      return slabs_.empty() ? 0 : (cut - free_.size()) * plane_samples * sizeof(glm::vec3);
+    }
 
    private:
-    static constexpr int largest_small = 12;
-    static constexpr std::size_t slab_samples = std::size_t(1) << 17;
+    struct Free {
+      void operator()(glm::vec3* slab) const { std::free(slab); }
+    };
+    // Huge pages: a replay touches every plane, and would else wait for the page tables.
+    static constexpr std::size_t slab_bytes = std::size_t(2) << 20;
+    static constexpr std::size_t slab_planes = slab_bytes / (plane_samples * sizeof(glm::vec3));
 
-    std::vector<std::unique_ptr<glm::vec3[]>> slabs_;
-    std::size_t slab_used_ = slab_samples;
-    std::array<std::vector<glm::vec3*>, largest_small + 1> free_;
-    std::vector<std::unique_ptr<glm::vec3[]>> large_;
-    std::size_t bytes_ = 0;
+    std::vector<std::unique_ptr<glm::vec3[], Free>> slabs_;
+    std::size_t used_ = slab_planes;  // of the last slab
+    std::vector<glm::vec3*> free_;
   };
 
   struct Job {
@@ -93,9 +121,9 @@ class SampleStore {
     std::uint32_t count;  // samples to append
   };
 
-  static int size_class(std::uint32_t count);
-  void reserve(Record& record, std::uint32_t count);
-  void clear(Record& record);
+  void make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end);
+  void release_planes_below(Tile& tile, std::uint32_t index);
+  void clear(std::size_t pixel);
   std::vector<Job> plan_pass(std::span<const std::uint32_t> begin,
                              std::span<const std::uint32_t> end);
   void finish_pass(std::span<const Job> jobs, std::span<const std::uint64_t> ticks, double wall);
@@ -103,11 +131,13 @@ class SampleStore {
   int width_;
   int height_;
   std::size_t memory_budget_;
-  std::vector<Record> records_;
-  std::unique_ptr<Blocks> blocks_;
+  std::vector<std::uint32_t> pixels_;
+  std::vector<Place> places_;
+  std::vector<Range> ranges_;
+  std::vector<Tile> tiles_;
+  Planes planes_;
   std::vector<float> seconds_per_sample_;
-  std::vector<std::uint32_t> timed_;       // samples behind each mean
-  std::vector<std::uint32_t> tile_order_;  // pixels, tile by tile
+  std::vector<std::uint32_t> timed_;  // samples behind each mean
   std::uint64_t traced_ = 0;
   std::uint64_t stored_ = 0;
   double seconds_ = 0.0;
