@@ -12,6 +12,7 @@ namespace {
 
 constexpr int width = 48;
 constexpr int height = 27;
+constexpr std::size_t pixels = std::size_t(width) * height;
 
 std::vector<SamplingPolicy> all_policies() {
   std::vector<SamplingPolicy> policies;
@@ -78,7 +79,7 @@ TEST(Lab, EachSampleIsTracedOnce) {
   Lab lab = make_lab(all_policies());
   run(lab, 8);
   std::uint64_t greediest = 0;
-  for (std::size_t i = 0; i < std::size_t(width * height); ++i) {
+  for (std::size_t i = 0; i < pixels; ++i) {
     std::uint32_t most = 0;
     for (const Lane& lane : lab.lanes()) {
       most = std::max(most, lane.taken()[i]);
@@ -211,7 +212,7 @@ TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
   // All samples of the store, charged once, are the time that tracing took.
   const SampleStore& store = lab.store();
   double charged = 0.0;
-  for (std::size_t i = 0; i < std::size_t(width * height); ++i) {
+  for (std::size_t i = 0; i < pixels; ++i) {
     std::uint32_t most = 0;
     for (const Lane& lane : lab.lanes()) {
       most = std::max(most, lane.taken()[i]);

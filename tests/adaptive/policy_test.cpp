@@ -15,8 +15,8 @@ struct Picture {
   Picture(int w, int h, int channels = 1)
       : width(w),
         height(h),
-        error(std::size_t(w * h * channels), 0.0f),
-        taken(std::size_t(w * h), 1) {}
+        error(std::size_t(w) * std::size_t(h) * std::size_t(channels), 0.0f),
+        taken(std::size_t(w) * std::size_t(h), 1) {}
 
   Plan plan(const SamplingPolicy& policy, std::uint32_t frame = 1) const {
     Plan plan;
@@ -48,7 +48,7 @@ TEST(Vote, APixelVotesForItsNeighbourhood) {
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
       const bool near = std::abs(x - 2) <= 1 && std::abs(y - 2) <= 1;
-      EXPECT_EQ(plan.wanted[std::size_t(5 * y + x)], near ? 2 : 1);
+      EXPECT_EQ(plan.wanted[std::size_t(5) * std::size_t(y) + std::size_t(x)], near ? 2 : 1);
     }
   }
   EXPECT_EQ(plan.total, 25u + 9u);
@@ -60,7 +60,7 @@ TEST(Vote, AFireflyInTheReport) {
   Picture picture(5, 5);
   for (int y = 1; y <= 3; ++y) {
     for (int x = 1; x <= 3; ++x) {
-      picture.error[std::size_t(5 * y + x)] = 1.0f;
+      picture.error[std::size_t(5) * std::size_t(y) + std::size_t(x)] = 1.0f;
     }
   }
   EXPECT_EQ(picture.plan(kl_policy(1.0f)).wanted[12], 1 + 9);
@@ -113,7 +113,7 @@ TEST(Vote, StochasticRoundingKeepsTheMean) {
   std::uint64_t voted = 0;
   for (std::uint32_t frame = 1; frame <= 9; ++frame) {
     extra += picture.plan(policy, frame).total - 10'000;
-    voted += 99 * 99;
+    voted += 9801;  // 99 x 99
   }
   const double share = double(extra) / double(voted);
   EXPECT_NEAR(share, 0.5, 4.0 * 0.5 / std::sqrt(double(voted)));

@@ -19,13 +19,17 @@ Film film_of(int width, int height, auto&& radiance) {
   return film;
 }
 
+std::size_t pixel_at(const Film& film, int x, int y) {
+  return std::size_t(y) * std::size_t(film.width()) + std::size_t(x);
+}
+
 /// The windows around pixel (x, y), in double precision.
 GoldenWindow window_around(const Film& film, int x, int y) {
   GoldenWindow window;
   for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, film.height() - 1); ++ny) {
     for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, film.width() - 1); ++nx) {
       for (std::size_t c = 0; c < 3; ++c) {
-        window.channels[c].push_back(film.mean(int(c))[std::size_t(ny * film.width() + nx)]);
+        window.channels[c].push_back(film.mean(int(c))[pixel_at(film, nx, ny)]);
       }
     }
   }
@@ -51,7 +55,7 @@ void expect_agreement(const Film& film) {
   estimate_hellinger(film, errors[2]);
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) {
-      const std::size_t i = std::size_t(y * film.width() + x);
+      const std::size_t i = pixel_at(film, x, y);
       const GoldenWindow exact = window_around(film, x, y);
       const double mean = exact.window().mean_luminance();
       const double n = double(exact.window().size());

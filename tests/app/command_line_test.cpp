@@ -28,6 +28,7 @@ struct Result {
 Result run(std::vector<std::string> words) {
   words.insert(words.begin(), "quartet");
   std::vector<const char*> argv;
+  argv.reserve(words.size());
   for (const std::string& word : words) {
     argv.push_back(word.c_str());
   }
