@@ -71,7 +71,7 @@ class SampleStore {
 
  private:
   static constexpr std::uint32_t tile_size = 8;
-  static constexpr std::size_t plane_samples = tile_size * tile_size;
+  static constexpr std::size_t plane_samples = std::size_t(tile_size) * tile_size;
 
   /// Samples of one tile: planes[i] holds number base + i of each of its pixels, or is null where
   /// none of them has that sample. Neighbours want the same numbers at the same time, so that a

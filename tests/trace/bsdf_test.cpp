@@ -423,7 +423,7 @@ TEST(Fresnel, ConductorAgreesWithComplexArithmetic) {
   for (float cosine = 0.02f; cosine < 1.0f; cosine += 0.07f) {
     const glm::vec3 r = fresnel_conductor(cosine, gold_eta, gold_k);
     for (int i = 0; i < 3; ++i) {
-      const Complex index(double(gold_eta[i]), double(gold_k[i]));
+      const Complex index{gold_eta[i], gold_k[i]};
       const double c = double(cosine);
       const Complex t = std::sqrt(index * index - (1.0 - c * c));
       const double s = std::norm((c - t) / (c + t));
