@@ -2,109 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "renderer/trace/sampler.h"
+#include "tests/trace/bsdf_cases.h"
 #include "tests/trace/chi_square.h"
 #include "tests/trace/statistics.h"
 
 namespace quartet {
 namespace {
 
-using test::chi_square_test;
-using test::sidak_level;
-
-// Gold at 580 nm, roughly.
-const glm::vec3 gold_eta(0.143f, 0.375f, 1.442f);
-const glm::vec3 gold_k(3.983f, 2.386f, 1.603f);
-
-Material make(MaterialKind kind, glm::vec3 reflectance = glm::vec3(1.0f)) {
-  Material material;
-  material.kind = kind;
-  material.reflectance.value = reflectance;
-  return material;
-}
-
-/// A metal that reflects everything.
-Material rough(float alpha) {
-  Material material = make(MaterialKind::rough_conductor);
-  material.alpha = alpha;
-  return material;
-}
-
-Material gold(Material material) {
-  material.eta = gold_eta;
-  material.k = gold_k;
-  return material;
-}
-
-Material glass(float ior) {
-  Material material = make(MaterialKind::dielectric);
-  material.ior = ior;
-  return material;
-}
-
-struct Case {
-  std::string name;
-  Material material;
-};
-
-std::string name_of(MaterialKind kind) {
-  switch (kind) {
-    case MaterialKind::diffuse:
-      return "diffuse";
-    case MaterialKind::conductor:
-      return "conductor";
-    case MaterialKind::rough_conductor:
-      return "rough conductor";
-    case MaterialKind::dielectric:
-      break;
-  }
-  return "dielectric";
-}
-
-/// Every kind of material: colours, both metals, the whole range of roughness.
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  const auto add = [&](Material material, const std::string& detail) {
-    all.push_back({name_of(material.kind) + detail, material});
-    if (material.kind != MaterialKind::dielectric) {
-      material.two_sided = true;
-      all.push_back({name_of(material.kind) + detail + ", two-sided", material});
-    }
-  };
-  add(make(MaterialKind::diffuse, {0.8f, 0.5f, 0.0f}), "");
-  add(gold(make(MaterialKind::conductor)), " gold");
-  add(make(MaterialKind::conductor), " mirror");
-  for (const float alpha : {1e-4f, 0.005f, 0.02f, 0.1f, 0.3f, 0.6f, 1.0f}) {
-    const std::string detail = " alpha " + std::to_string(alpha);
-    add(rough(alpha), detail);
-    add(gold(rough(alpha)), " gold" + detail);
-  }
-  add(glass(1.5f), "");
-  return all;
-}
-
-Bsdf at(const Material& material) {
-  return bsdf_at(Scene{}, material, glm::vec2(0.0f));
-}
-
-glm::vec3 direction(float cos_theta, float phi) {
-  const float sine = std::sqrt(1.0f - cos_theta * cos_theta);
-  return {sine * std::cos(phi), sine * std::sin(phi), cos_theta};
-}
-
-const std::vector<glm::vec3>& outgoing() {
-  static const std::vector<glm::vec3> all{direction(1.0f, 0.0f), direction(0.9f, 0.5f),
-                                          direction(0.6f, 2.0f), direction(0.3f, 4.0f),
-                                          direction(0.05f, 5.5f)};
-  return all;
-}
+using namespace test;
 
 std::vector<BsdfSample> samples_of(const Bsdf& bsdf, glm::vec3 wo, std::uint32_t seed,
                                    std::uint32_t count) {
@@ -119,8 +30,8 @@ std::vector<BsdfSample> samples_of(const Bsdf& bsdf, glm::vec3 wo, std::uint32_t
 }
 
 TEST(Bsdf, ReflectsNoMoreThanItReceives) {
-  for (const Case& c : cases()) {
-    const Bsdf bsdf = at(c.material);
+  for (const BsdfCase& c : bsdf_cases()) {
+    const Bsdf bsdf = bsdf_of(c.material);
     for (const glm::vec3 wo : outgoing()) {
       glm::dvec3 albedo(0.0);
       constexpr std::uint32_t count = 4096;
@@ -152,8 +63,8 @@ TEST(Bsdf, ReflectsNoMoreThanItReceives) {
 
 TEST(Bsdf, IsReciprocal) {
   int compared = 0;
-  for (const Case& c : cases()) {
-    const Bsdf bsdf = at(c.material);
+  for (const BsdfCase& c : bsdf_cases()) {
+    const Bsdf bsdf = bsdf_of(c.material);
     for (std::uint32_t i = 0; i < 2000; ++i) {
       Sampler sampler(2, i, 0);
       const Sampler::Draws& d = sampler.next();
@@ -178,8 +89,8 @@ TEST(Bsdf, IsReciprocal) {
 }
 
 TEST(Bsdf, SamplesCarryTheirValueOverTheirDensity) {
-  for (const Case& c : cases()) {
-    const Bsdf bsdf = at(c.material);
+  for (const BsdfCase& c : bsdf_cases()) {
+    const Bsdf bsdf = bsdf_of(c.material);
     for (glm::vec3 wo : outgoing()) {
       for (const float side : {1.0f, -1.0f}) {
         wo.z = std::copysign(wo.z, side);
@@ -215,11 +126,11 @@ TEST(Bsdf, SamplesCarryTheirValueOverTheirDensity) {
 }
 
 TEST(Bsdf, TwoSidedIsTheSameSeenFromBehind) {
-  for (const Case& c : cases()) {
+  for (const BsdfCase& c : bsdf_cases()) {
     if (c.material.kind == MaterialKind::dielectric) {
       continue;
     }
-    const Bsdf bsdf = at(c.material);
+    const Bsdf bsdf = bsdf_of(c.material);
     const glm::vec3 wo = direction(0.6f, 1.0f);
     const glm::vec3 wi = direction(0.55f, 1.0f + pi);
     const glm::vec3 flip(1.0f, 1.0f, -1.0f);
@@ -293,11 +204,11 @@ TEST(Bsdf, SamplingFollowsTheDensity) {
   constexpr std::uint32_t count = 160000;
   struct Result {
     std::string name;
-    test::ChiSquare chi_square;
+    ChiSquare chi_square;
   };
   std::vector<Result> results;
-  for (const Case& c : cases()) {
-    const Bsdf bsdf = at(c.material);
+  for (const BsdfCase& c : bsdf_cases()) {
+    const Bsdf bsdf = bsdf_of(c.material);
     if (is_specular(bsdf) || c.material.two_sided) {
       continue;  // no density, or the same one as without the other side
     }
@@ -350,7 +261,7 @@ TEST(Bsdf, TheChiSquareTestSeesAnErrorOfFivePercent) {
   const Material material = rough(0.2f);
   const Material wider = rough(0.2f * 1.05f);
   const glm::vec3 wo = direction(0.6f, 2.0f);
-  const Chart chart = slope_chart(at(wider), wo, 0.2);
+  const Chart chart = slope_chart(bsdf_of(wider), wo, 0.2);
   constexpr int bins = Chart::bins;
   constexpr double count = 160000;
   std::vector<double> expected(bins * bins + 1, 0.0);
@@ -365,7 +276,7 @@ TEST(Bsdf, TheChiSquareTestSeesAnErrorOfFivePercent) {
   }
   expected.back() = count * (1.0 - total);
   std::vector<double> observed(expected.size(), 0.0);
-  for (const BsdfSample& s : samples_of(at(material), wo, 4, std::uint32_t(count))) {
+  for (const BsdfSample& s : samples_of(bsdf_of(material), wo, 4, std::uint32_t(count))) {
     double a = 0.0;
     double b = 0.0;
     const bool inside = s.weight != glm::vec3(0.0f) && chart.to_chart(s.wi, a, b);
@@ -373,104 +284,6 @@ TEST(Bsdf, TheChiSquareTestSeesAnErrorOfFivePercent) {
         1.0;
   }
   EXPECT_LT(chi_square_test(observed, expected).p, 1e-6);
-}
-
-// ---- closed forms
-
-TEST(Fresnel, DielectricAtNormalIncidence) {
-  for (const float n : {1.0f, 1.1f, 1.33f, 1.5046f, 2.4f}) {
-    const float r = (n - 1.0f) / (n + 1.0f);
-    float cos_t = 0.0f;
-    EXPECT_NEAR(fresnel_dielectric(1.0f, n, cos_t), r * r, 1e-7f);
-    EXPECT_EQ(cos_t, 1.0f);
-    EXPECT_NEAR(fresnel_dielectric(1.0f, 1.0f / n, cos_t), r * r, 1e-7f);
-  }
-}
-
-TEST(Fresnel, DielectricAtBrewstersAngleLosesOnePolarisation) {
-  for (const float n : {1.33f, 1.5046f, 2.4f}) {
-    const float cosine = 1.0f / std::sqrt(1.0f + n * n);  // tan θ = n
-    const float perpendicular = (1.0f - n * n) / (1.0f + n * n);
-    float cos_t = 0.0f;
-    EXPECT_NEAR(fresnel_dielectric(cosine, n, cos_t), 0.5f * perpendicular * perpendicular, 1e-6f);
-    EXPECT_NEAR(cos_t, n * cosine, 1e-6f);  // the two rays are at right angles
-  }
-}
-
-TEST(Fresnel, DielectricObeysSnellAndReflectsTotallyBeyondTheCriticalAngle) {
-  const float n = 1.5f;
-  const float critical = std::sqrt(1.0f - 1.0f / (n * n));
-  for (float cos_i = 0.01f; cos_i <= 1.0f; cos_i += 0.01f) {
-    float cos_t = 0.0f;
-    fresnel_dielectric(cos_i, n, cos_t);
-    EXPECT_NEAR(1.0f - cos_i * cos_i, n * n * (1.0f - cos_t * cos_t), 1e-6f);
-    const float inside = fresnel_dielectric(cos_i, 1.0f / n, cos_t);
-    if (cos_i < critical - 1e-4f) {
-      EXPECT_EQ(inside, 1.0f);
-      EXPECT_EQ(cos_t, 0.0f);
-    } else if (cos_i > critical + 1e-4f) {
-      EXPECT_LT(inside, 1.0f);
-      // Light takes the same way back: reflectance depends on the pair of angles only.
-      float back = 0.0f;
-      EXPECT_NEAR(fresnel_dielectric(cos_t, n, back), inside, 2e-5f);
-      EXPECT_NEAR(back, cos_i, 1e-5f);
-    }
-  }
-}
-
-TEST(Fresnel, ConductorAgreesWithComplexArithmetic) {
-  using Complex = std::complex<double>;
-  for (float cosine = 0.02f; cosine < 1.0f; cosine += 0.07f) {
-    const glm::vec3 r = fresnel_conductor(cosine, gold_eta, gold_k);
-    for (int i = 0; i < 3; ++i) {
-      const Complex index{gold_eta[i], gold_k[i]};
-      const double c = double(cosine);
-      const Complex t = std::sqrt(index * index - (1.0 - c * c));
-      const double s = std::norm((c - t) / (c + t));
-      const double p = std::norm((index * index * c - t) / (index * index * c + t));
-      EXPECT_NEAR(r[i], 0.5 * (s + p), 2e-6);
-    }
-  }
-  const glm::vec3 normal = fresnel_conductor(1.0f, gold_eta, gold_k);
-  for (int i = 0; i < 3; ++i) {
-    const float k2 = gold_k[i] * gold_k[i];
-    const float minus = gold_eta[i] - 1.0f;
-    const float plus = gold_eta[i] + 1.0f;
-    EXPECT_NEAR(normal[i], (minus * minus + k2) / (plus * plus + k2), 1e-6f);
-  }
-}
-
-TEST(Fresnel, AConductorWithoutRealIndexReflectsEverything) {
-  for (float cosine = 0.0f; cosine <= 1.0f; cosine += 0.01f) {
-    EXPECT_EQ(fresnel_conductor(cosine, glm::vec3(0.0f), glm::vec3(1.0f)), glm::vec3(1.0f))
-        << cosine;
-  }
-}
-
-TEST(Dielectric, ReflectsAsOftenAsFresnelSaysAndRestoresRadianceOnTheWayOut) {
-  const Material material = glass(1.5f);
-  const Bsdf bsdf = at(material);
-  for (const glm::vec3 wo : outgoing()) {
-    float cos_t = 0.0f;
-    const float reflectance = fresnel_dielectric(wo.z, 1.5f, cos_t);
-    const BsdfSample mirrored = sample(bsdf, wo, reflectance * 0.999f, 0.0f);
-    EXPECT_EQ(mirrored.wi, glm::vec3(-wo.x, -wo.y, wo.z));
-    EXPECT_EQ(mirrored.weight, glm::vec3(1.0f));
-    EXPECT_EQ(mirrored.eta_scale, 1.0f);
-    const BsdfSample in = sample(bsdf, wo, reflectance * 1.001f, 0.0f);
-    EXPECT_NEAR(in.wi.z, -cos_t, 1e-6f);
-    EXPECT_NEAR(in.wi.x, -wo.x / 1.5f, 1e-6f);
-    EXPECT_NEAR(in.weight.x, 1.0f / (1.5f * 1.5f), 1e-6f);
-    // Out through the other side of a slab, in whose frame the way comes from below.
-    const BsdfSample out = sample(bsdf, {-in.wi.x, -in.wi.y, in.wi.z}, 0.999f, 0.0f);
-    EXPECT_LT(glm::length(out.wi - glm::vec3(-wo.x, -wo.y, wo.z)), 1e-5f);
-    EXPECT_NEAR(in.weight.x * out.weight.x, 1.0f, 1e-6f);
-    EXPECT_NEAR(in.eta_scale * out.eta_scale, 1.0f, 1e-6f);
-  }
-  // From inside beyond the critical angle nothing gets out, whatever the random number.
-  const BsdfSample total = sample(bsdf, direction(-0.5f, 1.0f), 0.999999f, 0.0f);
-  EXPECT_LT(total.wi.z, 0.0f);
-  EXPECT_EQ(total.weight, glm::vec3(1.0f));
 }
 
 }  // namespace
