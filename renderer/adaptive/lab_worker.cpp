@@ -151,10 +151,6 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
       report_progress();
     }
   }
-  if (mailbox_.waiting() == Mailbox::Waiting::nothing) {
-    status_.activity = Activity::idle;
-    publish_status();
-  }
   return nullptr;
 }
 
@@ -257,8 +253,13 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   answered_ = true;
   complete_ = shown_->frame == current_->request.frame;
   published_at_ = Clock::now();
+  if (complete_ && mailbox_.waiting() == Mailbox::Waiting::nothing) {
+    status_.activity = Activity::idle;
+  }
+  // The status goes ahead, so that whoever sees the snapshot sees no older status.
+  make_status_current();
   mailbox_.publish(shown_);
-  publish_status();
+  notify();
 }
 
 void LabWorker::describe_lab() {
@@ -269,12 +270,20 @@ void LabWorker::describe_lab() {
   status_.partial = store.partial();
 }
 
-void LabWorker::publish_status() {
+void LabWorker::make_status_current() {
   const Clock::time_point now = Clock::now();
   const bool idle = status_.activity == Activity::idle;
   status_.samples_per_second = idle ? 0.0 : meter_.per_second(now);
   status_at_ = now;
   mailbox_.publish(std::make_shared<const SessionStatus>(status_));
+}
+
+void LabWorker::publish_status() {
+  make_status_current();
+  notify();
+}
+
+void LabWorker::notify() const {
   if (notify_) {
     notify_();
   }
