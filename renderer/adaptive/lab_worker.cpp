@@ -101,9 +101,9 @@ void LabWorker::make_lab() {
 
 void LabWorker::change_lab() {
   const LabRequest& request = current_->request;
-  std::uint32_t furthest = 0;
+  std::uint32_t reached = shown_ ? shown_->frame : 0;
   for (const Lane& lane : lab_->lanes()) {
-    furthest = std::max(furthest, lane.frame());
+    reached = std::max(reached, lane.frame());
   }
   FilmStatistics statistics;
   statistics.variance = request.variance;
@@ -113,11 +113,9 @@ void LabWorker::change_lab() {
     return;
   }
   lab_->rewind_past(request.frame);
-  if (lab_->frame() < std::min(furthest, request.frame)) {
-    replaying_ = true;
-    replays_to_ = std::min(furthest, request.frame);
-    replay_start_ = Clock::now();
-  }
+  replays_to_ = std::min(reached, request.frame);
+  replaying_ = lab_->frame() < replays_to_;
+  replay_start_ = Clock::now();
 }
 
 /// Runs frames until the current request is answered in full, which gives null, or a newer one has

@@ -38,7 +38,7 @@ LabRequest lab_request(std::size_t lanes, int threads) {
 std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
                                          std::uint32_t frame) {
   for (;;) {
-    const auto snapshot = session.latest();
+    auto snapshot = session.latest();
     if (snapshot && snapshot->request >= number && snapshot->frame == frame) {
       return snapshot;
     }
