@@ -104,7 +104,7 @@ void Lane::look_up(const SampleStore& store, int tile_row) {
       for (int y = 0; y < tile.rows; ++y) {
         const std::uint32_t* n = taken + std::size_t(tile.top + y) * width + std::size_t(tile.left);
         for (int x = 0; x < tile.columns; ++x) {
-          __builtin_prefetch(tile.of(n[x]) + y * side + x);
+          __builtin_prefetch(tile.of(n[x]) + std::ptrdiff_t(y) * side + x);
         }
       }
     }
