@@ -1,0 +1,51 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+
+namespace quartet {
+
+/// What differs between Dear ImGui 1.86 (Debian 12) and its successors: how input comes in. Here
+/// only for input that no backend brings, as in tests; a window's backend does its own.
+/// Keys of ours do not go this way: see keys.h.
+
+inline void add_mouse_position(float x, float y) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMousePosEvent(x, y);
+#else
+  ImGui::GetIO().MousePos = ImVec2(x, y);
+#endif
+}
+
+inline void add_mouse_button(int button, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMouseButtonEvent(button, down);
+#else
+  ImGui::GetIO().MouseDown[button] = down;
+#endif
+}
+
+inline void add_mouse_wheel(float notches) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMouseWheelEvent(0.0f, notches);
+#else
+  ImGui::GetIO().MouseWheel += notches;
+#endif
+}
+
+inline void add_enter_key(bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddKeyEvent(ImGuiKey_Enter, down);
+#else
+  constexpr int code = 13;  // any number, as long as it is the same in both
+  ImGui::GetIO().KeyMap[ImGuiKey_Enter] = code;
+  ImGui::GetIO().KeysDown[code] = down;
+#endif
+}
+
+inline ImTextureID texture_id(std::uintptr_t handle) {
+  return (ImTextureID)(std::intptr_t)handle;  // a pointer up to 1.91, a number later
+}
+
+}  // namespace quartet
