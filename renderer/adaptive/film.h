@@ -13,6 +13,7 @@ namespace quartet {
 /// What a film keeps beside the mean. Each costs memory and time only where it is asked for.
 struct FilmStatistics {
   bool variance = false;  ///< sample variance per channel
+  bool operator==(const FilmStatistics&) const = default;
 };
 
 /// The statistics of the samples that each pixel has taken. Planar, because the estimators run over

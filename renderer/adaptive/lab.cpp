@@ -80,6 +80,31 @@ void Lab::set_policy(std::size_t lane, const SamplingPolicy& policy) {
   lanes_[lane] = Lane(width(), height(), policy, options_.statistics);
 }
 
+void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics) {
+  if (statistics != options_.statistics) {
+    options_.statistics = statistics;
+    lanes_.clear();
+  }
+  while (lanes_.size() > policies.size()) {
+    lanes_.pop_back();
+  }
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    if (i == lanes_.size()) {
+      lanes_.emplace_back(width(), height(), policies[i], statistics);
+    } else if (lanes_[i].policy() != policies[i]) {
+      set_policy(i, policies[i]);
+    }
+  }
+}
+
+void Lab::rewind_past(std::uint32_t frame) {
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    if (lanes_[i].frame() > frame) {
+      set_policy(i, SamplingPolicy(lanes_[i].policy()));
+    }
+  }
+}
+
 SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
                            const RenderSettings& settings) {
   const CameraRays camera(settings.camera, settings.width, settings.height);

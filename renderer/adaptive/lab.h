@@ -40,6 +40,13 @@ class Lab {
   /// Gives a lane another policy: it starts again at frame 0, out of stored samples.
   void set_policy(std::size_t lane, const SamplingPolicy& policy);
 
+  /// Gives the lab these lanes. One whose policy and statistics stay as they are keeps its frame;
+  /// the others start again at frame 0, out of stored samples.
+  void set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics);
+
+  /// Back to frame 0, for all lanes that are past `frame`; the store is kept.
+  void rewind_past(std::uint32_t frame);
+
  private:
   void forget();
 

@@ -18,6 +18,7 @@ struct Allocation {
   /// vote: round multiplier · votes up or down at random, so that its mean is kept, rather than
   /// down.
   bool stochastic_rounding = false;
+  bool operator==(const Allocation&) const = default;
 };
 
 /// What decides where a lane's samples go. A change replays the lane from its first frame.
@@ -26,6 +27,7 @@ struct SamplingPolicy {
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
   Allocation allocation;
   std::uint32_t max_spp = 1u << 16;
+  bool operator==(const SamplingPolicy&) const = default;
 };
 
 /// The policy with an estimator's default thresholds.

@@ -92,6 +92,7 @@ struct Camera {
   FovAxis fov_axis = FovAxis::x;
   float aperture_radius = 0.0f;  ///< world units
   float focus_distance = 1.0f;   ///< world units along `forward`
+  bool operator==(const Camera&) const = default;
 };
 
 struct Scene {

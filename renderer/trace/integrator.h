@@ -21,6 +21,7 @@ struct RenderSettings {
   int max_depth = std::numeric_limits<int>::max();  ///< segments of a path
   IntegratorId integrator = IntegratorId::mis;
   std::uint64_t seed = 0;
+  bool operator==(const RenderSettings&) const = default;
 };
 
 /// The settings that a scene file asks for.

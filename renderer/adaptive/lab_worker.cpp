@@ -1,0 +1,289 @@
+#include "renderer/adaptive/lab_worker.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace quartet {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr auto snapshot_interval = milliseconds(33);
+// While a replay has not caught up with what is shown, its frames would only flicker: they are
+// shown when there is nothing better for this long.
+constexpr auto replay_interval = milliseconds(250);
+constexpr auto status_interval = milliseconds(100);
+
+bool same_store(const LabRequest& a, const LabRequest& b) {
+  return a.scene == b.scene && a.settings == b.settings && a.memory == b.memory &&
+         a.threads == b.threads;
+}
+
+void check(const LabRequest& request) {
+  if (!request.scene) {
+    throw std::invalid_argument("no scene to render");
+  }
+  if (request.policies.empty()) {
+    throw std::invalid_argument("no lane to render");
+  }
+  if (request.settings.width < 1 || request.settings.height < 1) {
+    throw std::invalid_argument("a picture needs at least one pixel");
+  }
+}
+
+}  // namespace
+
+LabWorker::LabWorker(Mailbox& mailbox, std::function<void()> notify)
+    : mailbox_(mailbox), notify_(std::move(notify)) {
+}
+
+void LabWorker::run() {
+  thread_ = std::this_thread::get_id();
+  while (std::unique_ptr<Mailbox::Numbered> newest = mailbox_.wait_and_take()) {
+    while (newest) {
+      try {
+        begin(std::move(newest));
+        newest = answer();
+      } catch (const Closed&) {
+        return;
+      } catch (const std::exception& error) {
+        fail(error.what());
+        newest = mailbox_.take();
+      }
+    }
+  }
+}
+
+/// Makes the newest request the current one, and the lab fit for it.
+void LabWorker::begin(std::unique_ptr<Mailbox::Numbered> newest) {
+  const Clock::time_point now = Clock::now();
+  if (answered_) {
+    unanswered_since_ = now;
+    answered_ = false;
+  }
+  patience_ends_ = now + (now - unanswered_since_);
+  if (status_.activity == Activity::idle) {
+    meter_.restart(now);
+  }
+  complete_ = false;
+  check(newest->request);
+  const bool keep = lab_ && same_store(current_->request, newest->request);
+  current_ = std::move(newest);
+  status_.error.clear();
+  status_.frame_target = current_->request.frame;
+  status_.memory_budget = current_->request.memory;
+  if (keep) {
+    change_lab();
+  } else {
+    make_lab();
+  }
+}
+
+void LabWorker::make_lab() {
+  const LabRequest& request = current_->request;
+  lab_.reset();
+  shown_.reset();
+  pool_->clear();
+  replaying_ = false;
+  status_.activity = Activity::tracing;
+  LabOptions options;
+  options.threads = request.threads;
+  options.memory = request.memory;
+  options.statistics.variance = request.variance;
+  lab_ = std::make_unique<Lab>(watched(sample_source(request.scene, request.settings)),
+                               request.settings.width, request.settings.height, request.policies,
+                               options);
+  owes_first_picture_ = request.frame > 0;
+  describe_lab();
+  publish_status();
+}
+
+void LabWorker::change_lab() {
+  const LabRequest& request = current_->request;
+  std::uint32_t furthest = 0;
+  for (const Lane& lane : lab_->lanes()) {
+    furthest = std::max(furthest, lane.frame());
+  }
+  FilmStatistics statistics;
+  statistics.variance = request.variance;
+  lab_->set_lanes(request.policies, statistics);
+  if (is_answered_by_shown()) {
+    publish_shown_again();
+    return;
+  }
+  lab_->rewind_past(request.frame);
+  if (lab_->frame() < std::min(furthest, request.frame)) {
+    replaying_ = true;
+    replays_to_ = std::min(furthest, request.frame);
+    replay_start_ = Clock::now();
+  }
+}
+
+/// Runs frames until the current request is answered in full, which gives null, or a newer one has
+/// to be taken up, which gives that.
+std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
+  while (!complete_) {
+    if (mailbox_.closed()) {
+      throw Closed();
+    }
+    if (gives_way()) {
+      return mailbox_.take();
+    }
+    if (lab_->frame() < current_->request.frame) {
+      status_.activity = replaying_ ? Activity::replaying : Activity::tracing;
+      stop_ = std::stop_source();
+      if (tracing_gives_way()) {
+        stop_.request_stop();  // what is stored is replayed nevertheless
+      }
+      if (!lab_->run_frame(stop_.get_token())) {
+        return mailbox_.take();
+      }
+      describe_lab();
+    }
+    if (replaying_ && lab_->frame() >= replays_to_) {
+      replaying_ = false;
+      status_.replay_seconds = std::chrono::duration<double>(Clock::now() - replay_start_).count();
+    }
+    if (snapshot_is_due()) {
+      publish_lanes();
+    } else {
+      report_progress();
+    }
+  }
+  if (mailbox_.waiting() == Mailbox::Waiting::nothing) {
+    status_.activity = Activity::idle;
+    publish_status();
+  }
+  return nullptr;
+}
+
+void LabWorker::fail(const char* reason) {
+  status_ = {};
+  status_.error = reason;
+  lab_.reset();
+  shown_.reset();
+  current_.reset();
+  owes_first_picture_ = false;
+  answered_ = true;
+  publish_status();
+}
+
+/// Whether a newer request is to be taken up between two frames.
+bool LabWorker::gives_way() const {
+  switch (mailbox_.waiting()) {
+    case Mailbox::Waiting::nothing:
+      return false;
+    case Mailbox::Waiting::other_lanes:
+      return answered_;
+    case Mailbox::Waiting::other_store:
+      return !owes_first_picture_;
+  }
+  return false;
+}
+
+/// Whether tracing is to end now for a newer request.
+bool LabWorker::tracing_gives_way() const {
+  if (owes_first_picture_ || mailbox_.waiting() == Mailbox::Waiting::nothing) {
+    return false;
+  }
+  return mailbox_.waiting() == Mailbox::Waiting::other_store || answered_ ||
+         Clock::now() >= patience_ends_;
+}
+
+/// The tracer, asked between pixels whether it is still wanted.
+SampleSource LabWorker::watched(SampleSource trace) {
+  return [this, trace = std::move(trace)](int x, int y, std::uint32_t first,
+                                          std::span<glm::vec3> radiance) {
+    if (mailbox_.closed()) {
+      throw Closed();
+    }
+    if (tracing_gives_way()) {
+      stop_.request_stop();
+    }
+    trace(x, y, first, radiance);
+    meter_.add(radiance.size());
+    if (std::this_thread::get_id() == thread_) {
+      status_.activity = Activity::tracing;
+      report_progress();
+    }
+  };
+}
+
+bool LabWorker::lanes_are_together() const {
+  return std::ranges::all_of(lab_->lanes(),
+                             [&](const Lane& lane) { return lane.frame() == lab_->frame(); });
+}
+
+bool LabWorker::snapshot_is_due() const {
+  if (!lanes_are_together()) {
+    return false;
+  }
+  if (!shown_ || lab_->frame() == current_->request.frame) {
+    return true;
+  }
+  const auto interval = lab_->frame() > shown_->frame ? snapshot_interval : replay_interval;
+  return Clock::now() - published_at_ >= interval;
+}
+
+/// Whether what was published last, for a request before, is all that is asked for.
+bool LabWorker::is_answered_by_shown() const {
+  const LabRequest& request = current_->request;
+  return shown_ && shown_->frame == request.frame && shown_variance_ == request.variance &&
+         std::ranges::equal(shown_->lanes, request.policies, {}, &LaneSnapshot::policy);
+}
+
+void LabWorker::publish_lanes() {
+  std::unique_ptr<Snapshot> snapshot = pool_->take();
+  copy_lanes(*lab_, *snapshot);
+  snapshot->scene = current_->request.scene;
+  snapshot->settings = current_->request.settings;
+  publish(std::move(snapshot));
+}
+
+/// The lanes may stand elsewhere by now; the request is answered all the same.
+void LabWorker::publish_shown_again() {
+  std::unique_ptr<Snapshot> snapshot = pool_->take();
+  *snapshot = *shown_;
+  publish(std::move(snapshot));
+}
+
+void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
+  snapshot->number = ++published_;
+  snapshot->request = current_->number;
+  shown_ = pool_->publish(std::move(snapshot));
+  shown_variance_ = current_->request.variance;
+  owes_first_picture_ = false;
+  answered_ = true;
+  complete_ = shown_->frame == current_->request.frame;
+  published_at_ = Clock::now();
+  mailbox_.publish(shown_);
+  publish_status();
+}
+
+void LabWorker::describe_lab() {
+  const SampleStore& store = lab_->store();
+  status_.frame = lab_->frame();
+  status_.stored_samples = store.stored();
+  status_.stored_bytes = store.bytes();
+  status_.partial = store.partial();
+}
+
+void LabWorker::publish_status() {
+  const Clock::time_point now = Clock::now();
+  const bool idle = status_.activity == Activity::idle;
+  status_.samples_per_second = idle ? 0.0 : meter_.per_second(now);
+  status_at_ = now;
+  mailbox_.publish(std::make_shared<const SessionStatus>(status_));
+  if (notify_) {
+    notify_();
+  }
+}
+
+void LabWorker::report_progress() {
+  if (Clock::now() - status_at_ >= status_interval) {
+    publish_status();
+  }
+}
+
+}  // namespace quartet

@@ -1,0 +1,34 @@
+#include "renderer/adaptive/session.h"
+
+#include <utility>
+
+#include "renderer/adaptive/lab_worker.h"
+#include "renderer/adaptive/mailbox.h"
+
+namespace quartet {
+
+Session::Session(std::function<void()> notify) : mailbox_(std::make_unique<Mailbox>()) {
+  thread_ = std::thread([mailbox = mailbox_.get(), notify = std::move(notify)]() mutable {
+    LabWorker(*mailbox, std::move(notify)).run();
+  });
+}
+
+Session::~Session() {
+  mailbox_->close();
+  thread_.join();
+}
+
+std::uint64_t Session::submit(LabRequest request) {
+  return mailbox_->submit(std::move(request));
+}
+
+std::shared_ptr<const Snapshot> Session::latest() const {
+  return mailbox_->latest();
+}
+
+SessionStatus Session::status() const {
+  const std::shared_ptr<const SessionStatus> status = mailbox_->status();
+  return status ? *status : SessionStatus();
+}
+
+}  // namespace quartet
