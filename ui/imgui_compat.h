@@ -6,9 +6,9 @@
 
 namespace quartet {
 
-/// What differs between Dear ImGui 1.86 (Debian 12) and its successors: how input comes in. Here
-/// only for input that no backend brings, as in tests; a window's backend does its own.
-/// Keys of ours do not go this way: see keys.h.
+/// What differs between Dear ImGui 1.86 (Debian 12) and its successors. Input here is only what no
+/// backend brings, as in tests; a window's backend does its own. Keys of ours do not go this way:
+/// see keys.h.
 
 inline void add_mouse_position(float x, float y) {
 #if IMGUI_VERSION_NUM >= 18700
@@ -41,6 +41,14 @@ inline void add_enter_key(bool down) {
   constexpr int code = 13;  // any number, as long as it is the same in both
   ImGui::GetIO().KeyMap[ImGuiKey_Enter] = code;
   ImGui::GetIO().KeysDown[code] = down;
+#endif
+}
+
+inline float font_size(const ImFont* font) {
+#if IMGUI_VERSION_NUM >= 19200
+  return font->LegacySize;
+#else
+  return font->FontSize;
 #endif
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "ui/imgui_compat.h"
+
 namespace quartet {
 namespace {
 
@@ -177,7 +179,7 @@ void tooltip(const Ui& ui, const std::string& text) {
 }
 
 float text_width(ImFont* font, const std::string& text) {
-  return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0f, text.c_str()).x;
+  return font->CalcTextSizeA(font_size(font), FLT_MAX, 0.0f, text.c_str()).x;
 }
 
 std::string fitting_text(ImFont* font, std::initializer_list<std::string> texts, float width) {
@@ -190,7 +192,7 @@ std::string fitting_text(ImFont* font, std::initializer_list<std::string> texts,
 }
 
 void text_at(ImFont* font, float x, float y, ImU32 color, const std::string& text) {
-  ImGui::GetWindowDrawList()->AddText(font, font->FontSize, {std::round(x), std::round(y)}, color,
+  ImGui::GetWindowDrawList()->AddText(font, font_size(font), {std::round(x), std::round(y)}, color,
                                       text.c_str());
 }
 
@@ -201,7 +203,7 @@ void text_left_of(ImFont* font, float x, float y, ImU32 color, const std::string
 ScreenRect badge(const Ui& ui, float x, float y, ImU32 color, const std::string& text) {
   const float pad = ui.px(5.0f);
   const ScreenRect box{x, y, text_width(ui.small, text) + 2 * pad,
-                       ui.small->FontSize + ui.px(4.0f)};
+                       font_size(ui.small) + ui.px(4.0f)};
   ImGui::GetWindowDrawList()->AddRectFilled({box.x, box.y}, {box.right(), box.bottom()},
                                             palette::shade, ui.px(3.0f));
   text_at(ui.small, x + pad, y + ui.px(2.0f), color, text);
