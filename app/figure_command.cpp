@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "app/run_options.h"
 #include "app/run_record.h"
+#include "renderer/image/lane_exr.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/version.h"
@@ -60,15 +61,15 @@ void run_frames(Lab& lab, std::uint32_t frames) {
   }
 }
 
-void write_lane(StagedFiles& files, const Program& program, const Run& run, const Lane& lane,
-                const ViewSettings& view, const ColorScale& scale) {
-  const std::string name(estimator(lane.policy().estimator).id);
-  ExrImage exr = lane_exr(lane);
-  exr.attributes = exr_attributes(program, run, lane);
+void write_lane(StagedFiles& files, const Snapshot& snapshot, std::size_t lane,
+                const ViewSettings& view, std::map<std::string, std::string> attributes) {
+  const std::string name(estimator(snapshot.lanes[lane].policy.estimator).id);
+  ExrImage exr = lane_exr(snapshot, lane);
+  exr.attributes = std::move(attributes);
   write_exr(files.stage(name + ".exr"), exr);
-  write_png(files.stage(name + ".png"),
-            to_display(lane.film().image(), view.exposure, view.tone_map));
-  write_png(files.stage(name + "-heatmap.png"), heat_view(lane, scale));
+  write_png(files.stage(name + ".png"), draw_view(snapshot, lane, ViewKind::image, view).image);
+  write_png(files.stage(name + "-heatmap.png"),
+            draw_view(snapshot, lane, ViewKind::heatmap, view).image);
 }
 
 void print_table(const Lab& lab, const std::filesystem::path& out) {
@@ -88,25 +89,29 @@ void print_table(const Lab& lab, const std::filesystem::path& out) {
 
 void run_figure(const FigureOptions& options, const Program& program) {
   const std::vector<SamplingPolicy> policies = policies_of(options);
-  const ViewSettings view{options.exposure, find_tone_map(options.tone_map).key,
-                          heat_range(options.heat)};
+  ViewSettings view;
+  view.exposure = options.exposure;
+  view.tone_map = find_tone_map(options.tone_map).key;
+  view.heat = heat_range(options.heat);
   const Run run = prepare_run(options.run, policies.size());
   StagedFiles files(options.out);
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
           run.lab);
   run_frames(lab, options.frames);
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
 
   const std::string title = fmt::format("{}, {} frames at {}×{}", run.scene->scene().name,
                                         options.frames, run.settings.width, run.settings.height);
   const std::string footer = fmt::format("quartet {} · {}", version(), program.command_line);
-  const Figure images = image_figure(lab.lanes(), view, title, footer);
+  const Figure images = image_figure(snapshot, view, title, footer);
   write_figure_png(images, files.stage("images.png"));
   write_figure_pdf(images, files.stage("images.pdf"));
-  const Figure heatmaps = heat_figure(lab.lanes(), view, title, footer);
+  const Figure heatmaps = heat_figure(snapshot, view, title, footer);
   write_figure_png(heatmaps, files.stage("heatmaps.png"));
   write_figure_pdf(heatmaps, files.stage("heatmaps.pdf"));
-  for (const Lane& lane : lab.lanes()) {
-    write_lane(files, program, run, lane, view, heat_scale(view.heat, lab.lanes(), lane));
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    write_lane(files, snapshot, i, view, exr_attributes(program, run, lab.lanes()[i]));
   }
   files.write("panels.csv", csv_record(run, lab));
   files.write("panels.json", json_record(program, run, lab));

@@ -10,9 +10,9 @@
 #include "app/progress.h"
 #include "app/run_options.h"
 #include "app/run_record.h"
+#include "renderer/image/lane_exr.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
-#include "renderer/image/tone_map.h"
 #include "renderer/image/views.h"
 
 namespace quartet {
@@ -76,13 +76,15 @@ SamplingPolicy render_policy(const RenderOptions& options) {
 }
 
 void write_output(const std::filesystem::path& path, const Program& program, const Run& run,
-                  const Lane& lane, StagedFiles& files) {
+                  const Lab& lab, StagedFiles& files) {
   const std::filesystem::path temporary = files.stage(path.filename().string());
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
   if (path.extension() == ".png") {
-    write_png(temporary, to_display(lane.film().image()));
+    write_png(temporary, draw_view(snapshot, 0, ViewKind::image, {}).image);
   } else {
-    ExrImage exr = lane_exr(lane);
-    exr.attributes = exr_attributes(program, run, lane);
+    ExrImage exr = lane_exr(snapshot, 0);
+    exr.attributes = exr_attributes(program, run, lab.lanes().front());
     write_exr(temporary, exr);
   }
   files.commit();
@@ -115,7 +117,7 @@ void run_render(const RenderOptions& options, const Program& program) {
                                                            double(lane.film().size())));
     }
   }
-  write_output(output, program, run, lane, files);
+  write_output(output, program, run, lab, files);
   const FrameRecord& last = lane.history().back();
   fmt::print("{}: {} frames, mean {:.2f} spp, max {} spp, {:.2f} s\n", output.string(), last.frame,
              double(last.samples) / double(lane.film().size()), last.max_spp, last.seconds);

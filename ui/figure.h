@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/color_map.h"
+#include "renderer/image/color_bar.h"
 #include "renderer/image/image.h"
 
 namespace quartet {
-
-/// The key of a heatmap: a horizontal bar with ticks and the quantity's name and unit.
-struct ColorBar {
-  ColorScale scale;
-  std::string label;      ///< e.g. "samples per pixel"
-  std::string cap_label;  ///< what kCapColor means; empty if the pictures have no such pixels
-};
 
 struct FigurePanel {
   DisplayImage image;  ///< at least one pixel

@@ -2,25 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "renderer/image/ticks.h"
 
 namespace quartet {
 namespace {
 
-FigurePanel panel(const Lane& lane, DisplayImage image) {
-  const Estimator& row = estimator(lane.policy().estimator);
+FigurePanel panel(const LaneSnapshot& lane, DisplayImage image) {
+  const double pixels = double(lane.taken.size());
   FigurePanel panel;
   panel.image = std::move(image);
-  panel.title = row.label;
-  std::string numbers = threshold_text(lane.policy());
-  if (!lane.history().empty()) {
-    const FrameRecord& last = lane.history().back();
-    numbers +=
-        fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
-                    double(last.samples) / double(lane.film().size()), last.max_spp, last.seconds);
+  panel.title = estimator(lane.policy.estimator).label;
+  std::string numbers = threshold_text(lane.policy);
+  if (!lane.history.empty()) {
+    const FrameRecord& last = lane.history.back();
+    numbers += fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
+                           double(last.samples) / pixels, last.max_spp, last.seconds);
   }
   panel.lines.push_back(std::move(numbers));
-  if (const std::uint64_t rejected = lane.film().total_rejected(); rejected > 0) {
+  const auto rejected =
+      std::accumulate(lane.rejected.begin(), lane.rejected.end(), std::uint64_t(0));
+  if (rejected > 0) {
     panel.lines.push_back(fmt::format("{} samples rejected (negative or not finite)", rejected));
   }
   return panel;
@@ -32,12 +35,6 @@ Figure grid(std::string title, std::string footer, std::size_t panels) {
   figure.footer = std::move(footer);
   figure.columns = panels == 1 ? 1 : 2;
   return figure;
-}
-
-std::string cap_label(const Lane& lane) {
-  const bool capped =
-      !lane.history().empty() && lane.history().back().max_spp >= lane.policy().max_spp;
-  return capped ? fmt::format("at the maximum of {} spp", lane.policy().max_spp) : "";
 }
 
 }  // namespace
@@ -54,26 +51,26 @@ std::string threshold_text(const SamplingPolicy& policy) {
   return text;
 }
 
-Figure image_figure(std::span<const Lane> lanes, const ViewSettings& view, std::string title,
+Figure image_figure(const Snapshot& snapshot, const ViewSettings& view, std::string title,
                     std::string footer) {
-  Figure figure = grid(std::move(title), std::move(footer), lanes.size());
-  for (const Lane& lane : lanes) {
+  Figure figure = grid(std::move(title), std::move(footer), snapshot.lanes.size());
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     figure.panels.push_back(
-        panel(lane, to_display(lane.film().image(), view.exposure, view.tone_map)));
+        panel(snapshot.lanes[i], draw_view(snapshot, i, ViewKind::image, view).image));
   }
   return figure;
 }
 
-Figure heat_figure(std::span<const Lane> lanes, const ViewSettings& view, std::string title,
+Figure heat_figure(const Snapshot& snapshot, const ViewSettings& view, std::string title,
                    std::string footer) {
-  Figure figure = grid(std::move(title), std::move(footer), lanes.size());
-  for (const Lane& lane : lanes) {
-    const ColorBar bar{heat_scale(view.heat, lanes, lane), "samples per pixel", cap_label(lane)};
-    figure.panels.push_back(panel(lane, heat_view(lane, bar.scale)));
+  Figure figure = grid(std::move(title), std::move(footer), snapshot.lanes.size());
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    View heat = draw_view(snapshot, i, ViewKind::heatmap, view);
+    figure.panels.push_back(panel(snapshot.lanes[i], std::move(heat.image)));
     if (view.heat == HeatRange::report) {
-      figure.panels.back().bar = bar;
+      figure.panels.back().bar = heat.bar;
     } else if (!figure.shared_bar || figure.shared_bar->cap_label.empty()) {
-      figure.shared_bar = bar;
+      figure.shared_bar = heat.bar;
     }
   }
   return figure;

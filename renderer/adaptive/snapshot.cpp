@@ -44,6 +44,12 @@ void copy_lane(const Lane& lane, LaneSnapshot& snapshot) {
   copy_variance(film, snapshot.variance);
   copy(lane.history(), snapshot.history);
   snapshot.plan = lane.plan();
+  fill_histogram(lane.taken(), snapshot.sample_histogram);
+  snapshot.error_histograms.resize(lane.error().size() / film.size());
+  for (std::size_t c = 0; c < snapshot.error_histograms.size(); ++c) {
+    fill_histogram(lane.error().subspan(c * film.size(), film.size()),
+                   snapshot.error_histograms[c]);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/adaptive/histogram.h"
 #include "renderer/adaptive/lane.h"
 #include "renderer/trace/integrator.h"
 
@@ -23,8 +24,10 @@ struct LaneSnapshot {
   std::vector<float> error;
   /// Of the pixel mean: red, green, blue × pixels, in radiance²; empty where the films keep none.
   std::vector<float> variance;
-  std::vector<FrameRecord> history;  ///< one a frame; back() is the current one
-  Plan plan;                         ///< of the next frame
+  std::vector<FrameRecord> history;              ///< one a frame; back() is the current one
+  Plan plan;                                     ///< of the next frame
+  SampleHistogram sample_histogram;              ///< of `taken`
+  std::vector<ErrorHistogram> error_histograms;  ///< one a channel of the estimator
 };
 
 /// All lanes at the end of the same frame.

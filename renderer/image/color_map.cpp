@@ -1,11 +1,13 @@
 #include "renderer/image/color_map.h"
-#include "renderer/table.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "renderer/fast_log2.h"
+#include "renderer/table.h"
 
 namespace quartet {
 
@@ -106,20 +108,67 @@ float scale_position(const ColorScale& scale, double value) {
   if (!(scale.max > scale.min)) {
     return value > scale.min ? 1.f : 0.f;
   }
-  return static_cast<float>(std::clamp((value - scale.min) / (scale.max - scale.min), 0.0, 1.0));
+  double t = (value - scale.min) / (scale.max - scale.min);
+  if (scale.spacing == Spacing::logarithmic) {
+    t = value > scale.min ? std::log(value / scale.min) / std::log(scale.max / scale.min) : 0.0;
+  }
+  return static_cast<float>(std::clamp(t, 0.0, 1.0));
 }
 
-DisplayImage apply(const ScalarImage& numbers, const ColorScale& scale) {
-  DisplayImage display(numbers.width(), numbers.height());
+void apply(std::span<const float> numbers, const ColorScale& scale, std::span<Rgba8> display) {
+  assert(numbers.size() == display.size());
   const std::span<const vec3> knots = color_map_row(scale.color_map).knots;
-  std::ranges::transform(numbers.pixels(), display.pixels().begin(), [&](float value) {
-    return sample_knots(knots, scale_position(scale, value));
-  });
-  return display;
+  if (!(scale.max > scale.min)) {
+    std::ranges::transform(numbers, display.begin(), [&](float value) {
+      return sample_knots(knots, scale_position(scale, value));
+    });
+    return;
+  }
+  constexpr int kLast = 4096;
+  std::array<Rgba8, kLast + 2> colors;  // the one past the end: not a number
+  for (int i = 0; i <= kLast; ++i) {
+    colors[static_cast<std::size_t>(i)] =
+        sample_knots(knots, static_cast<float>(i) / static_cast<float>(kLast));
+  }
+  colors[kLast + 1] = kNotANumberColor;
+
+  const bool logarithmic = scale.spacing == Spacing::logarithmic;
+  const double low = logarithmic ? std::log2(scale.min) : scale.min;
+  const double high = logarithmic ? std::log2(scale.max) : scale.max;
+  const auto slope = static_cast<float>(kLast / (high - low));
+  const auto offset = static_cast<float>(low);
+  const auto smallest = std::numeric_limits<float>::min();
+  constexpr std::size_t kBlock = 512;
+  std::array<std::int32_t, kBlock> places;
+  for (std::size_t start = 0; start < numbers.size(); start += kBlock) {
+    const std::size_t size = std::min(kBlock, numbers.size() - start);
+    const float* number = numbers.data() + start;
+    const auto place = [&](float value, float x) {
+      float t = (x - offset) * slope + 0.5f;
+      t = t > 0.f ? t : 0.f;
+      t = t < static_cast<float>(kLast) ? t : static_cast<float>(kLast);
+      return value == value ? static_cast<std::int32_t>(t) : kLast + 1;
+    };
+    if (logarithmic) {
+#pragma omp simd
+      for (std::size_t i = 0; i < size; ++i) {
+        places[i] = place(number[i], fast_log2(number[i] > smallest ? number[i] : smallest));
+      }
+    } else {
+#pragma omp simd
+      for (std::size_t i = 0; i < size; ++i) {
+        places[i] = place(number[i], number[i]);
+      }
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      display[start + i] = colors[static_cast<std::size_t>(places[i])];
+    }
+  }
 }
 
-DisplayImage heatmap(const Image<std::uint32_t>& counts, const ColorScale& scale,
-                     std::optional<std::uint32_t> cap) {
+void heatmap(std::span<const std::uint32_t> counts, const ColorScale& scale,
+             std::optional<std::uint32_t> cap, std::span<Rgba8> display) {
+  assert(counts.size() == display.size());
   const std::span<const vec3> knots = color_map_row(scale.color_map).knots;
   const auto color_of = [&](std::uint32_t count) {
     return cap && count >= *cap ? kCapColor : sample_knots(knots, scale_position(scale, count));
@@ -129,11 +178,9 @@ DisplayImage heatmap(const Image<std::uint32_t>& counts, const ColorScale& scale
   for (std::uint32_t count = 0; count < colors.size(); ++count) {
     colors[count] = color_of(count);
   }
-  DisplayImage display(counts.width(), counts.height());
-  std::ranges::transform(counts.pixels(), display.pixels().begin(), [&](std::uint32_t count) {
+  std::ranges::transform(counts, display.begin(), [&](std::uint32_t count) {
     return count < colors.size() ? colors[count] : color_of(count);
   });
-  return display;
 }
 
 }  // namespace quartet

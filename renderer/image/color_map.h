@@ -32,22 +32,29 @@ inline constexpr Rgba8 kCapColor{255, 0, 255, 255};
 /// The colour at t, clamped to [0, 1]; NaN gives kNotANumberColor.
 Rgba8 sample(ColorMapId color_map, float t);
 
+/// How numbers lie along an axis or a colour bar.
+enum class Spacing { linear, logarithmic };
+
 /// What number has which colour: min is t = 0, max is t = 1. If max <= min, numbers up to min get
-/// the colour of t = 0 and those above it the colour of t = 1.
+/// the colour of t = 0 and those above it the colour of t = 1. On a logarithmic scale both are
+/// above 0.
 struct ColorScale {
   double min = 0.0;
   double max = 1.0;
   ColorMapId color_map = ColorMapId::turbo;
+  Spacing spacing = Spacing::linear;
   bool operator==(const ColorScale&) const = default;
 };
 
 float scale_position(const ColorScale& scale, double value);  ///< t in [0, 1], or NaN
 
-DisplayImage apply(const ScalarImage& numbers, const ColorScale& scale);
+/// Numbers as colours, one a number. Where the colours come from a table of 4097, they are off by
+/// one step of 255 at most.
+void apply(std::span<const float> numbers, const ColorScale& scale, std::span<Rgba8> display);
 
-/// Samples per pixel as colours. Pixels with `cap` samples or more, the maximum a policy allows,
-/// get kCapColor.
-DisplayImage heatmap(const Image<std::uint32_t>& counts, const ColorScale& scale,
-                     std::optional<std::uint32_t> cap = std::nullopt);
+/// Samples per pixel as colours, exactly. Pixels with `cap` samples or more, the maximum a policy
+/// allows, get kCapColor.
+void heatmap(std::span<const std::uint32_t> counts, const ColorScale& scale,
+             std::optional<std::uint32_t> cap, std::span<Rgba8> display);
 
 }  // namespace quartet

@@ -4,55 +4,211 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "renderer/image/pixel_values.h"
+#include "renderer/table.h"
 
 namespace quartet {
+namespace {
 
-ColorScale heat_scale(HeatRange range, std::span<const Lane> lanes, const Lane& lane) {
+View blank(const Snapshot& snapshot, std::string note) {
+  View view;
+  view.image = DisplayImage(snapshot.width, snapshot.height, kNotANumberColor);
+  view.note = std::move(note);
+  return view;
+}
+
+View numbers_view(const Snapshot& snapshot, std::span<const float> numbers, ColorBar bar) {
+  View view;
+  view.image = DisplayImage(snapshot.width, snapshot.height);
+  apply(numbers, bar.scale, view.image.pixels());
+  view.bar = std::move(bar);
+  return view;
+}
+
+View image_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings& settings) {
+  View view;
+  view.image = to_display(radiance_image(snapshot, lane), settings.exposure, settings.tone_map);
+  return view;
+}
+
+View heat_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings& settings) {
+  const LaneSnapshot& shown = snapshot.lanes[lane];
+  const std::uint32_t cap = shown.policy.max_spp;
+  View view;
+  view.bar = {heat_scale(snapshot, lane, settings.heat), "", ""};
+  if (!shown.history.empty() && shown.history.back().max_spp >= cap) {
+    view.bar->cap_label = fmt::format("at the maximum of {} spp", cap);
+  }
+  view.image = DisplayImage(snapshot.width, snapshot.height);
+  heatmap(shown.taken, view.bar->scale, cap, view.image.pixels());
+  return view;
+}
+
+/// Linear from 0 to twice the threshold, so that what decides lies in the middle of the scale; how
+/// far beyond it an error is, its histogram shows.
+View error_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
+  const std::vector<float> relative = relative_error(snapshot.lanes[lane]);
+  if (relative.empty()) {
+    return blank(snapshot, estimator(snapshot.lanes[lane].policy.estimator).channels == 0
+                               ? "uniform sampling estimates no error"
+                               : "no frame yet");
+  }
+  return numbers_view(snapshot, relative, {{0.0, 2.0, ColorMapId::turbo}, "", ""});
+}
+
+/// Six powers of ten, up to the one above the largest variance of all lanes. Powers of ten, because
+/// the scale would else drift with every frame.
+View variance_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
+  const std::size_t pixels = snapshot.pixels();
+  if (snapshot.lanes[lane].variance.empty()) {
+    return blank(snapshot, "the variance was not asked for");
+  }
+  float highest = 0.0f;
+  for (const LaneSnapshot& each : snapshot.lanes) {
+    for (const float variance : each.variance) {
+      highest = std::max(highest, variance);
+    }
+  }
+  const std::vector<float>& variance = snapshot.lanes[lane].variance;
+  std::vector<float> largest(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    largest[i] = std::max({variance[i], variance[pixels + i], variance[2 * pixels + i]});
+  }
+  const double end = highest > 0.0f ? std::pow(10.0, std::ceil(std::log10(highest))) : 1.0;
+  return numbers_view(snapshot, largest,
+                      {{end * 1e-6, end, ColorMapId::viridis, Spacing::logarithmic}, "", ""});
+}
+
+View stop_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
+  const LaneSnapshot& shown = snapshot.lanes[lane];
+  const std::size_t pixels = snapshot.pixels();
+  const std::size_t channels = shown.error.size() / pixels;
+  enum State : std::size_t { active, satisfied, at_maximum };
+  View view;
+  view.legend = {{{232, 119, 46}, channels > 0 ? "error above its threshold" : "active"},
+                 {{46, 88, 130}, "satisfied"},
+                 {kCapColor, fmt::format("at the maximum of {} spp", shown.policy.max_spp)}};
+  view.image = DisplayImage(snapshot.width, snapshot.height);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    // Compared as the policy does: the quotient can round to the threshold.
+    State state = channels == 0 ? active : satisfied;
+    for (std::size_t c = 0; c < channels; ++c) {
+      state = shown.error[c * pixels + i] > shown.policy.thresholds[c] ? active : state;
+    }
+    state = shown.taken[i] >= shown.policy.max_spp ? at_maximum : state;
+    ++view.legend[state].pixels;
+    view.image.pixels()[i] = view.legend[state].color;
+  }
+  return view;
+}
+
+View rejected_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
+  const std::vector<std::uint32_t>& rejected = snapshot.lanes[lane].rejected;
+  std::uint32_t highest = 1;
+  for (const LaneSnapshot& each : snapshot.lanes) {
+    highest = std::max(highest, each.rejected.empty() ? 0 : std::ranges::max(each.rejected));
+  }
+  std::vector<float> counts(rejected.begin(), rejected.end());
+  counts.resize(snapshot.pixels(), 0.0f);
+  View view = numbers_view(snapshot, counts, {{0.0, double(highest), ColorMapId::viridis}, "", ""});
+  if (rejected.empty()) {
+    view.note = "no sample was rejected";
+  }
+  return view;
+}
+
+/// Half of a scale that holds all but 1 in 200 of the numbers, which are fireflies: 1, 2 or 5 times
+/// a power of ten, so that it stays when numbers change a little.
+double symmetric_end(std::span<const float> numbers) {
+  std::vector<float> sizes(numbers.size());
+  std::ranges::transform(numbers, sizes.begin(), [](float number) { return std::abs(number); });
+  const auto place = sizes.begin() + std::ptrdiff_t(sizes.size() - 1 - sizes.size() / 200);
+  std::ranges::nth_element(sizes, place);
+  const double size = double(*place);
+  if (!(size > 0.0)) {
+    return 1.0;
+  }
+  const double power = std::pow(10.0, std::floor(std::log10(size)));
+  const double digit = size / power;
+  return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
+}
+
+View difference_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings& settings) {
+  if (settings.other >= snapshot.lanes.size()) {
+    return blank(snapshot, "there is no such lane to compare with");
+  }
+  const auto& a = snapshot.lanes[lane].mean;
+  const auto& b = snapshot.lanes[settings.other].mean;
+  std::vector<float> difference(snapshot.pixels());
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    difference[i] = luminance({a[0][i] - b[0][i], a[1][i] - b[1][i], a[2][i] - b[2][i]});
+  }
+  const double end = symmetric_end(difference);
+  View view = numbers_view(snapshot, difference, {{-end, end, ColorMapId::coolwarm}, "", ""});
+  if (settings.other == lane) {
+    view.note = "compared with itself";
+  }
+  return view;
+}
+
+constexpr std::array table{
+    ViewRow{ViewKind::image, "image", "Image", "", false, image_view},
+    ViewRow{ViewKind::heatmap, "heatmap", "Samples", "samples per pixel", true, heat_view},
+    ViewRow{ViewKind::error, "error", "Error", "error / threshold", true, error_view},
+    ViewRow{ViewKind::variance, "variance", "Variance of mean",
+            "variance of the mean, largest channel (radiance²)", true, variance_view},
+    ViewRow{ViewKind::stop_state, "stop", "Stop state", "", false, stop_view},
+    ViewRow{ViewKind::rejected, "rejected", "Rejected", "rejected samples per pixel", true,
+            rejected_view},
+    ViewRow{ViewKind::difference, "difference", "Difference", "luminance minus the other lane's",
+            true, difference_view},
+};
+
+}  // namespace
+
+std::span<const ViewRow> views() {
+  return table;
+}
+
+const ViewRow& view_row(ViewKind key) {
+  return row_of(views(), key);
+}
+
+const ViewRow& find_view(std::string_view id) {
+  return find_row(views(), id, "view");
+}
+
+View draw_view(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
+               const ViewSettings& settings) {
+  const ViewRow& row = view_row(kind);
+  View view = row.draw(snapshot, lane, settings);
+  if (view.bar) {
+    view.bar->label = row.quantity;
+  }
+  return view;
+}
+
+ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange range) {
   if (range == HeatRange::report) {
-    const auto [low, high] = std::ranges::minmax_element(lane.taken());
+    const auto [low, high] = std::ranges::minmax_element(snapshot.lanes[lane].taken);
     return {double(*low), double(*high), ColorMapId::report};
   }
   std::uint32_t highest = 1;
-  for (const Lane& each : lanes) {
-    highest = std::max(highest, std::ranges::max(each.taken()));
+  for (const LaneSnapshot& each : snapshot.lanes) {
+    highest = std::max(highest, each.history.empty() ? 0 : each.history.back().max_spp);
   }
   return {0.0, double(highest), ColorMapId::turbo};
 }
 
-DisplayImage heat_view(const Lane& lane, const ColorScale& scale) {
-  Image<std::uint32_t> counts(lane.film().width(), lane.film().height());
-  std::ranges::copy(lane.taken(), counts.pixels().begin());
-  return heatmap(counts, scale, lane.policy().max_spp);
-}
-
-ExrImage lane_exr(const Lane& lane) {
-  constexpr std::array channel_names{"R", "G", "B"};
-  const Film& film = lane.film();
-  ExrImage exr(film.width(), film.height());
-  exr.add_radiance(film.image());
-  const auto add_counts = [&](const char* name, std::span<const std::uint32_t> counts) {
-    exr.add(name, std::vector<std::uint32_t>(counts.begin(), counts.end()));
-  };
-  add_counts("SampleCount", film.counts());
-  add_counts("Rejected", film.rejected());
-
-  const Estimator& row = estimator(lane.policy().estimator);
-  for (std::size_t c = 0; c < std::size_t(row.channels) && !lane.error().empty(); ++c) {
-    const auto plane = lane.error().subspan(c * film.size(), film.size());
-    exr.add(row.channels == 1 ? fmt::format("Error.{}", row.id)
-                              : fmt::format("Error.{}.{}", row.id, channel_names[c]),
-            std::vector<float>(plane.begin(), plane.end()));
+RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane) {
+  const auto& mean = snapshot.lanes[lane].mean;
+  RadianceImage image(snapshot.width, snapshot.height);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    image.pixels()[i] = {mean[0][i], mean[1][i], mean[2][i]};
   }
-  if (film.statistics().variance) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::vector<float> plane(film.size());
-      for (std::size_t i = 0; i < film.size(); ++i) {
-        plane[i] = float(film.variance_of_mean(i)[int(c)]);
-      }
-      exr.add(fmt::format("Variance.{}", channel_names[c]), std::move(plane));
-    }
-  }
-  return exr;
+  return image;
 }
 
 }  // namespace quartet

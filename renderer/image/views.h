@@ -1,11 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "renderer/adaptive/lane.h"
-#include "renderer/image/color_map.h"
-#include "renderer/image/exr.h"
+#include "renderer/adaptive/snapshot.h"
+#include "renderer/image/color_bar.h"
 #include "renderer/image/image.h"
+#include "renderer/image/tone_map.h"
 
 namespace quartet {
 
@@ -15,15 +19,54 @@ enum class HeatRange {
   report,  ///< lowest to highest count of each lane, blue-green-red: the 2021 report
 };
 
-/// The scale of one lane among those shown together.
-ColorScale heat_scale(HeatRange range, std::span<const Lane> lanes, const Lane& lane);
+/// How lanes are shown; changes nothing that is computed.
+struct ViewSettings {
+  float exposure = 0.0f;  ///< stops
+  ToneMap tone_map = ToneMap::clamp;
+  HeatRange heat = HeatRange::linked;
+  std::size_t other = 0;  ///< difference: the lane that is subtracted
+};
 
-/// Samples per pixel; pixels at the maximum of the lane's policy have a colour of their own.
-DisplayImage heat_view(const Lane& lane, const ColorScale& scale);
+/// What a colour means where colours are not numbers.
+struct LegendEntry {
+  Rgba8 color;
+  std::string label;
+  std::uint64_t pixels = 0;  ///< that have it
+};
 
-/// Everything a lane knows about its pixels: R, G, B, SampleCount, Rejected, Error.<estimator>
-/// (Error.<estimator>.R/G/B where it has three), and Variance.R/G/B of the mean where the film
-/// keeps variance.
-ExrImage lane_exr(const Lane& lane);
+/// A lane's pixels as one looks at them, with the key to their colours.
+struct View {
+  DisplayImage image;
+  std::optional<ColorBar> bar;
+  std::vector<LegendEntry> legend;
+  std::string note;  ///< why there is nothing to see; else empty
+};
+
+enum class ViewKind { image, heatmap, error, variance, stop_state, rejected, difference };
+
+/// One row of the table of views.
+struct ViewRow {
+  ViewKind key;
+  std::string_view id;        ///< on the command line and in files
+  std::string_view label;     ///< for people
+  std::string_view quantity;  ///< what its numbers are, with their unit; empty if it has none
+  bool has_bar;               ///< a colour bar belongs to it
+  View (*draw)(const Snapshot& snapshot, std::size_t lane, const ViewSettings& settings);
+};
+
+std::span<const ViewRow> views();
+const ViewRow& view_row(ViewKind key);
+/// Throws std::invalid_argument that lists the legal ids.
+const ViewRow& find_view(std::string_view id);
+
+/// A lane of a snapshot as the row says. Scales depend on all lanes of the snapshot where the same
+/// colour is to mean the same number in each.
+View draw_view(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
+               const ViewSettings& settings);
+
+/// The scale of samples per pixel of one lane.
+ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange range);
+
+RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane);
 
 }  // namespace quartet

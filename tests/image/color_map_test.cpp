@@ -114,12 +114,19 @@ TEST(ColorMap, EveryRowClampsIsContinuousAndLeavesTheSpecialColoursAlone) {
             "unknown colour map 'jet'; there are: turbo, viridis, report, coolwarm");
 }
 
+DisplayImage heatmap_of(const Image<std::uint32_t>& counts, const ColorScale& scale,
+                        std::optional<std::uint32_t> cap = std::nullopt) {
+  DisplayImage display(counts.width(), counts.height());
+  heatmap(counts.pixels(), scale, cap, display.pixels());
+  return display;
+}
+
 TEST(Heatmap, SpansMinToMax) {
   Image<std::uint32_t> counts(3, 1);
   counts.at(0, 0) = 10;
   counts.at(1, 0) = 30;
   counts.at(2, 0) = 50;
-  const DisplayImage heat = heatmap(counts, {10, 50, ColorMapId::report});
+  const DisplayImage heat = heatmap_of(counts, {10, 50, ColorMapId::report});
   EXPECT_EQ(heat.at(0, 0), (Rgba8{0, 0, 255, 255}));
   EXPECT_EQ(heat.at(1, 0), (Rgba8{0, 255, 0, 255}));
   EXPECT_EQ(heat.at(2, 0), (Rgba8{255, 0, 0, 255}));
@@ -131,7 +138,7 @@ TEST(Heatmap, AgreesWithSampleForSmallAndLargeCounts) {
     counts.at(x, 0) = static_cast<std::uint32_t>(x);
   }
   const ColorScale scale{100, 2500, ColorMapId::viridis};
-  const DisplayImage heat = heatmap(counts, scale, 2900u);
+  const DisplayImage heat = heatmap_of(counts, scale, 2900u);
   for (int x = 0; x < 3000; ++x) {
     ASSERT_EQ(heat.at(x, 0),
               x >= 2900 ? kCapColor : sample(ColorMapId::viridis, scale_position(scale, x)))
@@ -144,14 +151,14 @@ TEST(Heatmap, MarksPixelsAtTheCap) {
   counts.at(0, 0) = 63;
   counts.at(1, 0) = 64;
   counts.at(2, 0) = 65;
-  const DisplayImage heat = heatmap(counts, {0, 64, ColorMapId::turbo}, 64u);
+  const DisplayImage heat = heatmap_of(counts, {0, 64, ColorMapId::turbo}, 64u);
   EXPECT_EQ(heat.at(0, 0), sample(ColorMapId::turbo, 63.f / 64.f));
   EXPECT_EQ(heat.at(1, 0), kCapColor);
   EXPECT_EQ(heat.at(2, 0), kCapColor);
 }
 
 TEST(Heatmap, AnEmptyRangeIsTheLowEnd) {
-  const DisplayImage heat = heatmap(Image<std::uint32_t>(2, 2, 8u), {8, 8, ColorMapId::report});
+  const DisplayImage heat = heatmap_of(Image<std::uint32_t>(2, 2, 8u), {8, 8, ColorMapId::report});
   EXPECT_EQ(heat, DisplayImage(2, 2, {0, 0, 255, 255}));
 }
 
@@ -161,11 +168,39 @@ TEST(Apply, ShowsNaNAndInfinity) {
   numbers.at(1, 0) = std::numeric_limits<float>::infinity();
   numbers.at(2, 0) = -std::numeric_limits<float>::infinity();
   numbers.at(3, 0) = 0.f;
-  const DisplayImage display = apply(numbers, {-1, 1, ColorMapId::coolwarm});
+  DisplayImage display(4, 1);
+  apply(numbers.pixels(), {-1, 1, ColorMapId::coolwarm}, display.pixels());
   EXPECT_EQ(display.at(0, 0), kNotANumberColor);
   EXPECT_EQ(display.at(1, 0), sample(ColorMapId::coolwarm, 1.f));
   EXPECT_EQ(display.at(2, 0), sample(ColorMapId::coolwarm, 0.f));
   EXPECT_EQ(display.at(3, 0), sample(ColorMapId::coolwarm, 0.5f));
+}
+
+TEST(Apply, AgreesWithSampleOnBothSpacings) {
+  for (const ColorScale& scale : {ColorScale{-3, 5, ColorMapId::turbo, Spacing::linear},
+                                  ColorScale{1e-6, 10, ColorMapId::turbo, Spacing::logarithmic}}) {
+    std::vector<float> numbers{0.f, -1.f, 1e-38f, 1e30f};
+    for (float value = 1e-7f; value < 100.f; value *= 1.01f) {
+      numbers.push_back(value);
+    }
+    std::vector<Rgba8> display(numbers.size());
+    apply(numbers, scale, display);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const Rgba8 exact = sample(scale.color_map, scale_position(scale, double(numbers[i])));
+      EXPECT_LE(std::abs(display[i].r - exact.r), 1) << numbers[i];
+      EXPECT_LE(std::abs(display[i].g - exact.g), 1) << numbers[i];
+      EXPECT_LE(std::abs(display[i].b - exact.b), 1) << numbers[i];
+    }
+  }
+}
+
+TEST(Apply, ALogarithmicScaleHasItsGeometricMeanInTheMiddle) {
+  const ColorScale scale{1e-4, 1, ColorMapId::viridis, Spacing::logarithmic};
+  EXPECT_EQ(scale_position(scale, 1e-4), 0.f);
+  EXPECT_FLOAT_EQ(scale_position(scale, 1e-2), 0.5f);
+  EXPECT_EQ(scale_position(scale, 1.0), 1.f);
+  EXPECT_EQ(scale_position(scale, 0.0), 0.f);
+  EXPECT_EQ(scale_position(scale, -1.0), 0.f);
 }
 
 }  // namespace

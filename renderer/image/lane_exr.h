@@ -1,0 +1,13 @@
+#pragma once
+
+#include "renderer/adaptive/snapshot.h"
+#include "renderer/image/exr.h"
+
+namespace quartet {
+
+/// Everything a snapshot knows about a lane's pixels: R, G, B, SampleCount (samples in the mean),
+/// Rejected, Error.<estimator> (Error.<estimator>.R/G/B where it has three), and Variance.R/G/B of
+/// the mean where it has them.
+ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane);
+
+}  // namespace quartet
