@@ -42,6 +42,9 @@ struct LabFrame {
   PictureCache& pictures;
   Message& message;
   LabOrders& orders;
+  /// Pixel under the mouse; LabState::hovered is that of the frame before, so that all slots mark
+  /// the same one, whichever is drawn first.
+  std::optional<glm::ivec2> hovered = std::nullopt;
 
   /// The lane's numbers, if there are any yet.
   const LaneSnapshot* lane(std::size_t index) const {

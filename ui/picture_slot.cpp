@@ -164,7 +164,8 @@ void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int heigh
   const ImGuiIO& io = ImGui::GetIO();
   const PicturePlace place = place_picture(state.pan_zoom, slot.box, width, height);
   if (ImGui::IsItemHovered()) {
-    state.hovered = place.pixel_at(io.MousePos.x, io.MousePos.y, width, height);
+    const auto pixel = place.pixel_at(io.MousePos.x, io.MousePos.y, width, height);
+    frame.hovered = pixel;
     if (io.MouseWheel != 0.0f) {
       if (io.KeyCtrl) {
         Camera& camera = state.request.settings.camera;
@@ -179,7 +180,7 @@ void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int heigh
     }
     const float way = std::hypot(io.MouseDragMaxDistanceAbs[0].x, io.MouseDragMaxDistanceAbs[0].y);
     if (ImGui::IsMouseReleased(0) && way < frame.ui.px(3.0f)) {
-      state.pinned = state.pinned == state.hovered ? std::nullopt : state.hovered;
+      state.pinned = state.pinned == pixel ? std::nullopt : pixel;
     }
   }
   if (ImGui::IsItemActive() && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {

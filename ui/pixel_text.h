@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/image/pixel_values.h"
 #include "renderer/image/views.h"
 
 namespace quartet {
