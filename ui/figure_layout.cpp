@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "renderer/image/ticks.h"
 #include "ui/figure_text.h"
 
 namespace quartet {
@@ -180,8 +179,7 @@ class Builder {
     const TextStyle style{0.9 * line_, false, kGray};
     const double mark_width = std::max(1.0, std::round(line_ / 14));
     const double mark_height = 0.3 * line_;
-    std::vector<Tick> ticks =
-        ticks_with_ends(scale.min, scale.max, static_cast<int>(bar.width / (7 * line_)));
+    std::vector<Tick> ticks = scale_ticks(scale, static_cast<int>(bar.width / (7 * line_)));
     // The ends first: round numbers between them are left out where they would run together.
     if (ticks.size() > 1) {
       std::rotate(ticks.begin() + 1, ticks.end() - 1, ticks.end());

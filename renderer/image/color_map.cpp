@@ -115,6 +115,14 @@ float scale_position(const ColorScale& scale, double value) {
   return static_cast<float>(std::clamp(t, 0.0, 1.0));
 }
 
+std::vector<Tick> scale_ticks(const ColorScale& scale, int wanted) {
+  if (scale.spacing == Spacing::linear) {
+    return ticks_with_ends(scale.min, scale.max, wanted);
+  }
+  return decade_ticks(static_cast<int>(std::ceil(std::log10(scale.min) - 1e-9)),
+                      static_cast<int>(std::floor(std::log10(scale.max) + 1e-9)));
+}
+
 void apply(std::span<const float> numbers, const ColorScale& scale, std::span<Rgba8> display) {
   assert(numbers.size() == display.size());
   const std::span<const vec3> knots = color_map_row(scale.color_map).knots;

@@ -4,8 +4,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "renderer/image/image.h"
+#include "renderer/image/ticks.h"
 
 namespace quartet {
 
@@ -47,6 +49,10 @@ struct ColorScale {
 };
 
 float scale_position(const ColorScale& scale, double value);  ///< t in [0, 1], or NaN
+
+/// Ticks for a colour bar of about `wanted`: its ends and round numbers between them; powers of ten
+/// on a logarithmic scale.
+std::vector<Tick> scale_ticks(const ColorScale& scale, int wanted);
 
 /// Numbers as colours, one a number. Where the colours come from a table of 4097, they are off by
 /// one step of 255 at most.

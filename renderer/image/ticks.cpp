@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace quartet {
@@ -74,6 +75,23 @@ std::vector<Tick> ticks_with_ends(double min, double max, int wanted) {
     }
   }
   ticks.push_back(end_tick(max));
+  return ticks;
+}
+
+std::vector<Tick> decade_ticks(int first, int last) {
+  constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::vector<Tick> ticks;
+  for (int exponent = first; exponent <= last; ++exponent) {
+    const double value = std::pow(10.0, exponent);
+    std::string label = format_number(value);
+    if (std::abs(exponent) > 2) {
+      label = exponent < 0 ? "10⁻" : "10";
+      for (const char digit : std::to_string(std::abs(exponent))) {
+        label += digits[static_cast<std::size_t>(digit - '0')];
+      }
+    }
+    ticks.push_back({value, std::move(label)});
+  }
   return ticks;
 }
 

@@ -20,6 +20,10 @@ std::vector<Tick> linear_ticks(double min, double max, int wanted);
 /// nearer to an end than half a step give way to it.
 std::vector<Tick> ticks_with_ends(double min, double max, int wanted);
 
+/// Powers of ten from 10^first to 10^last, for logarithmic axes: labelled 0.01, 0.1, 1, 10, 100,
+/// and 10⁻³, 10⁴ and so on beyond them.
+std::vector<Tick> decade_ticks(int first, int last);
+
 /// Four significant digits, no trailing zeros: 71, 0.005, 31.27, 2.5e7.
 std::string format_number(double value);
 
