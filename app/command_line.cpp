@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/shell_words.h"
 #include "renderer/version.h"
 
 namespace quartet {
@@ -15,25 +16,11 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
-/// A word as a POSIX shell would have to read it.
-std::string quoted(std::string_view word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-    return std::string(word);
-  }
-  std::string text = "'";
-  for (const char c : word) {
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return text + "'";
-}
-
 std::string joined_command_line(int argc, const char* const* argv) {
   std::string text = "quartet";
   for (int i = 1; i < argc; ++i) {
     text += ' ';
-    text += quoted(argv[i]);
+    text += shell_word(argv[i]);
   }
   return text;
 }

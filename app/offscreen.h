@@ -7,8 +7,9 @@
 
 namespace quartet {
 
-/// An OpenGL context with a picture to draw into and no display: EGL on Mesa's surfaceless platform,
-/// which needs neither X nor any variable of the environment. Current on the thread that made it.
+/// An OpenGL context with a picture to draw into and no display: EGL on Mesa's surfaceless
+/// platform, which needs neither X nor any variable of the environment. Current on the thread that
+/// made it.
 class Offscreen {
  public:
   /// Throws std::runtime_error that says what is missing.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "app/commands.h"
 #include "app/number_check.h"
@@ -62,6 +63,22 @@ SceneParameters parse_defines(const std::vector<std::string>& defines) {
   return parameters;
 }
 
+void set_camera(const std::vector<float>& numbers, Camera& camera) {
+  const auto vector = [&](std::size_t first) {
+    return glm::vec3(numbers[first], numbers[first + 1], numbers[first + 2]);
+  };
+  camera.origin = vector(0);
+  camera.right = vector(3);
+  camera.up = vector(6);
+  camera.forward = vector(9);
+  for (const glm::vec3 axis : {camera.right, camera.up, camera.forward}) {
+    // Also false for numbers that are not finite.
+    if (!(std::abs(glm::length(axis) - 1.0f) < 1e-3f)) {
+      throw UsageError("--camera: right, up and forward must have length 1");
+    }
+  }
+}
+
 }  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& options) {
@@ -81,6 +98,12 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::Range(1, 1'000'000));
   command.add_option("--seed", options.seed, "Another seed, other random numbers")
       ->capture_default_str();
+  command
+      .add_option("--camera", options.camera,
+                  "Another place for the camera: origin, right, up, forward, 3 numbers each; the "
+                  "window writes it")
+      ->delimiter(',')
+      ->expected(12);
   command.add_option("--threads", options.threads, "0: one a processor")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -118,6 +141,9 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   }
   if (!options.size.empty()) {
     parse_size(options.size, run.settings);
+  }
+  if (!options.camera.empty()) {
+    set_camera(options.camera, run.settings.camera);
   }
   check_memory(run.settings, lanes);
   run.lab.threads = options.threads;

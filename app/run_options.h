@@ -20,6 +20,7 @@ struct RunOptions {
   std::string integrator = "mis";
   std::optional<int> max_depth;
   std::uint64_t seed = 0;
+  std::vector<float> camera;
   int threads = 0;
   double memory_gib = 2.0;
   std::string policy = "vote";

@@ -57,12 +57,10 @@ Camera orbit(const CameraControls& controls, const Camera& camera, float right, 
   const float handed =
       glm::dot(glm::cross(camera.right, camera.up), camera.forward) < 0.0f ? 1.0f : -1.0f;
   Camera turned_right = turned_around(camera, controls.pivot, vertical, -handed * right);
-  Camera result =
-      turned_around(turned_right, controls.pivot, turned_right.right, -handed * up);
+  Camera result = turned_around(turned_right, controls.pivot, turned_right.right, -handed * up);
   constexpr float steepest = 0.985f;
   const float slope = glm::dot(result.forward, vertical);
-  const bool steeper =
-      std::abs(slope) > std::abs(glm::dot(turned_right.forward, vertical));
+  const bool steeper = std::abs(slope) > std::abs(glm::dot(turned_right.forward, vertical));
   return std::abs(slope) > steepest && steeper ? turned_right : result;
 }
 

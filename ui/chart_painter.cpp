@@ -17,9 +17,7 @@ struct Mapping {
   const Chart& chart;
   ScreenRect area;
 
-  float x(double value) const {
-    return area.x + float(axis_position(chart.x, value)) * area.width;
-  }
+  float x(double value) const { return area.x + float(axis_position(chart.x, value)) * area.width; }
   float y(double value) const {
     return area.bottom() - float(axis_position(chart.y, value)) * area.height;
   }
@@ -73,9 +71,7 @@ void draw_ticks(const Ui& ui, const Mapping& map, const ScreenRect& box) {
 void draw_data(const Ui& ui, const Mapping& map) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ScreenRect& area = map.area;
-  const auto clamped = [&](double value) {
-    return std::clamp(map.x(value), area.x, area.right());
-  };
+  const auto clamped = [&](double value) { return std::clamp(map.x(value), area.x, area.right()); };
   for (const Shade& shade : map.chart.shades) {
     list.AddRectFilled({clamped(shade.begin), area.y}, {clamped(shade.end), area.bottom()},
                        screen_color(shade.color));
@@ -186,9 +182,9 @@ std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Cha
   }
   if (hovered && near) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    tooltip(ui, fmt::format("{}threshold {}\ndrag to move it",
-                            near->label.empty() ? "" : near->label + ": ",
-                            format_number(near->value)));
+    tooltip(ui,
+            fmt::format("{}threshold {}\ndrag to move it",
+                        near->label.empty() ? "" : near->label + ": ", format_number(near->value)));
   } else if (hovered) {
     tooltip(ui, reading_at(chart, axis_value(chart.x, map.position(mouse))));
   }

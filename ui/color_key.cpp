@@ -70,8 +70,9 @@ void draw_legend(const Ui& ui, const ScreenRect& box, const std::vector<LegendEn
   float x = box.x;
   float y = box.y + ui.px(4.0f);
   for (const LegendEntry& entry : legend) {
-    const std::string text = fmt::format(
-        "{} {:.0f} %", entry.label, 100.0 * double(entry.pixels) / double(std::max<std::uint64_t>(pixels, 1)));
+    const std::string text =
+        fmt::format("{} {:.0f} %", entry.label,
+                    100.0 * double(entry.pixels) / double(std::max<std::uint64_t>(pixels, 1)));
     const float width = 1.6f * swatch + text_width(ui.small, text) + ui.px(10.0f);
     if (x > box.x && x + width > box.right()) {
       x = box.x;

@@ -88,11 +88,11 @@ void draw_export_form(LabFrame& frame) {
     ImGui::PopFont();
     ImGui::TextDisabled("PNG, PDF and EXR, with the command line that makes the same files");
     const auto lane_label = [&](int lane) {
-      return lane < 0 ? std::string("the figure of all four lanes")
-                      : fmt::format("lane {}: {}", lane + 1,
-                                    estimator(frame.state.request.policies[std::size_t(lane)]
-                                                  .estimator)
-                                        .label);
+      return lane < 0
+                 ? std::string("the figure of all four lanes")
+                 : fmt::format(
+                       "lane {}: {}", lane + 1,
+                       estimator(frame.state.request.policies[std::size_t(lane)].estimator).label);
     };
     const float width = ui.px(420.0f);
     combo(ui, "export.what", lane_label(form.lane), width, [&] {

@@ -99,8 +99,8 @@ constexpr std::array table{
            },
            nullptr},
 
-    KeyRow{key_left, false, "Arrows", "turn the camera", [](LabState& s) { orbit_by(s, -orbit_step, 0); },
-           nullptr},
+    KeyRow{key_left, false, "Arrows", "turn the camera",
+           [](LabState& s) { orbit_by(s, -orbit_step, 0); }, nullptr},
     KeyRow{key_right, false, "", "", [](LabState& s) { orbit_by(s, orbit_step, 0); }, nullptr},
     KeyRow{key_up, false, "", "", [](LabState& s) { orbit_by(s, 0, orbit_step); }, nullptr},
     KeyRow{key_down, false, "", "", [](LabState& s) { orbit_by(s, 0, -orbit_step); }, nullptr},

@@ -87,8 +87,8 @@ ColumnLayout lay_out_large(const Ui& ui, const ScreenRect& area, const ColumnWis
   layout.header = left.cut_top(lane_header_height(ui, left.width));
   left.cut_top(ui.px(4.0f));
   const float charts = 3 * ui.px(least_chart) + 2 * ui.px(gap);
-  layout.pictures[1] = rounded(left.cut_top(
-      std::min(left.width / wish.aspect, left.height - wish.key_heights[1] - charts)));
+  layout.pictures[1] = rounded(
+      left.cut_top(std::min(left.width / wish.aspect, left.height - wish.key_heights[1] - charts)));
   layout.keys[1] = left.cut_top(wish.key_heights[1]);
   left.cut_top(ui.px(gap));
   stack_charts(ui, left, layout);

@@ -18,7 +18,7 @@ struct ColumnLayout {
 };
 
 struct ColumnWish {
-  float aspect = 16.0f / 9.0f;               ///< of the picture
+  float aspect = 16.0f / 9.0f;             ///< of the picture
   std::array<float, 2> key_heights{0, 0};  ///< of both slots, equal in all columns
 };
 

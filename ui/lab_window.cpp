@@ -41,8 +41,9 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
     return pressed;
   };
   for (std::size_t i = 0; i < frame.state.request.policies.size(); ++i) {
-    const std::string text = std::to_string(i + 1) + "  " +
-                             std::string(estimator(frame.state.request.policies[i].estimator).label);
+    const std::string text =
+        std::to_string(i + 1) + "  " +
+        std::string(estimator(frame.state.request.policies[i].estimator).label);
     if (button("tab" + std::to_string(i), text, lane_color(i), i == comparison.lane)) {
       comparison.other = comparison.other == i ? comparison.lane : comparison.other;
       comparison.lane = i;
@@ -127,17 +128,17 @@ void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
     draw_lane_column(frame, i,
                      state_.layout == LabLayout::grid ? lay_out_cell(ui_, panels[i], wish)
                                                       : lay_out_column(ui_, panels[i], wish));
-    // Only the gaps are painted: the window is cleared to the panels' colour, and fill is what costs
-    // where no graphics card draws.
+    // Only the gaps are painted: the window is cleared to the panels' colour, and fill is what
+    // costs where no graphics card draws.
     if (panels[i].right() < area.right() - 1) {
       list.AddRectFilled({panels[i].right(), panels[i].y},
                          {panels[i].right() + ui_.px(side_gap), panels[i].bottom()}, palette::gap);
     }
     if (panels[i].bottom() < area.bottom() - 1) {
-      list.AddRectFilled({panels[i].x, panels[i].bottom()},
-                         {panels[i].right() + ui_.px(side_gap),
-                          panels[i].bottom() + ui_.px(side_gap)},
-                         palette::gap);
+      list.AddRectFilled(
+          {panels[i].x, panels[i].bottom()},
+          {panels[i].right() + ui_.px(side_gap), panels[i].bottom() + ui_.px(side_gap)},
+          palette::gap);
     }
   }
 }
@@ -170,9 +171,8 @@ LabOrders LabWindow::draw(const LabInput& input) {
   const ScreenRect status = area.cut_bottom(status_bar_height(ui_));
   const ScreenRect toolbar = area.cut_top(toolbar_height(frame, area.width));
   draw_toolbar(frame, toolbar);
-  ImGui::GetWindowDrawList()->AddRectFilled({0, toolbar.bottom()},
-                                            {size.x, toolbar.bottom() + ui_.px(side_gap)},
-                                            palette::gap);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {0, toolbar.bottom()}, {size.x, toolbar.bottom() + ui_.px(side_gap)}, palette::gap);
   area.cut_top(ui_.px(side_gap));
   draw_lanes(frame, area);
   draw_status_bar(frame, status);

@@ -29,9 +29,8 @@ void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) 
   const std::string name = fmt::format("lane{}.", lane);
   // Ahead of the lane while one is dragged; of another estimator they would mean nothing here.
   SamplingPolicy& wanted = frame.state.request.policies[lane];
-  const Thresholds& thresholds = wanted.estimator == shown->policy.estimator
-                                     ? wanted.thresholds
-                                     : shown->policy.thresholds;
+  const Thresholds& thresholds =
+      wanted.estimator == shown->policy.estimator ? wanted.thresholds : shown->policy.thresholds;
   const Chart errors = error_chart(*frame.snapshot, lane, thresholds, accent);
   if (const auto drag = paint_chart(frame.ui, name + "errors", errors, layout.charts[0])) {
     if (wanted.estimator == shown->policy.estimator) {
@@ -65,14 +64,13 @@ ColumnWish column_wish(const LabFrame& frame) {
 void draw_lane_column(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) {
   ImGui::PushID(int(lane));
   const ScreenRect& panel = layout.panel;
-  ImGui::GetWindowDrawList()->AddRectFilled({panel.x, panel.y},
-                                            {panel.right(), panel.y + frame.ui.px(3.0f)},
-                                            lane_color(lane));
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {panel.x, panel.y}, {panel.right(), panel.y + frame.ui.px(3.0f)}, lane_color(lane));
   draw_lane_header(frame, lane, layout.header);
   const std::size_t source = frame.state.hold_first ? 0 : lane;
   const bool wipe = frame.state.layout == LabLayout::large && frame.state.comparison.wipe;
   for (std::size_t slot = 0; slot < 2; ++slot) {
-    const PictureSlot picture{lane,         slot, source, 2 * lane + slot, layout.pictures[slot],
+    const PictureSlot picture{lane,     slot, source, 2 * lane + slot, layout.pictures[slot],
                               slot == 0};
     if (wipe && slot == 0) {
       PictureSlot other = picture;

@@ -87,8 +87,8 @@ bool edit_multiplier(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
           "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 its "
           "pictures.");
   ImGui::SetCursorScreenPos({box.right() - field, box.y});
-  changed |= number_field(ui, lane_name(lane, "multiplier.number"), value, 0.0f, 1000.0f, "%.2f",
-                          field);
+  changed |=
+      number_field(ui, lane_name(lane, "multiplier.number"), value, 0.0f, 1000.0f, "%.2f", field);
   return changed;
 }
 
@@ -154,8 +154,8 @@ bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
     changed |= slider(ui, name, value, {range.low, range.high, true}, width, color);
     tooltip(ui, source_text(row));
     ImGui::SetCursorScreenPos({x + width, box.y});
-    changed |= number_field(ui, name + ".number", value, 1e-9f, 1e9f, threshold_format(value),
-                            field);
+    changed |=
+        number_field(ui, name + ".number", value, 1e-9f, 1e9f, threshold_format(value), field);
     tooltip(ui, source_text(row));
   }
   return changed;
@@ -182,16 +182,13 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
   const double share = 100.0 * double(last.refined) / double(frame.snapshot->pixels());
   const std::string seconds = last.seconds < 100.0 ? fmt::format("{:.2f} s", last.seconds)
                                                    : fmt::format("{:.0f} s", last.seconds);
-  const std::uint64_t rejected =
-      shown->rejected.empty()
-          ? 0
-          : [&] {
-              std::uint64_t sum = 0;
-              for (const std::uint32_t count : shown->rejected) {
-                sum += count;
-              }
-              return sum;
-            }();
+  const std::uint64_t rejected = shown->rejected.empty() ? 0 : [&] {
+    std::uint64_t sum = 0;
+    for (const std::uint32_t count : shown->rejected) {
+      sum += count;
+    }
+    return sum;
+  }();
   const std::string bad = rejected > 0 ? fmt::format(" · {} rejected", rejected) : "";
   const std::string text = fitting_text(
       frame.ui.small,

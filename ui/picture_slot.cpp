@@ -51,10 +51,9 @@ bool edit_choice(Ui& ui, const PictureSlot& slot, SlotChoice& choice) {
       }
       for (std::size_t other = 0; other < lane_count; ++other) {
         const bool current = choice.kind == row.key && choice.other == other;
-        if (other != slot.lane &&
-            combo_row(ui, fmt::format("{}.{}{}", name, row.id, other),
-                      fmt::format("{} to lane {}", row.label, other + 1), current,
-                      std::string(row.quantity))) {
+        if (other != slot.lane && combo_row(ui, fmt::format("{}.{}{}", name, row.id, other),
+                                            fmt::format("{} to lane {}", row.label, other + 1),
+                                            current, std::string(row.quantity))) {
           choice = {row.key, other};
           chosen = true;
         }
@@ -71,11 +70,11 @@ bool edit_choice(Ui& ui, const PictureSlot& slot, SlotChoice& choice) {
 void draw_note(const Ui& ui, const ScreenRect& box, const std::string& note) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float wrap = std::min(box.width - ui.px(24.0f), ui.px(360.0f));
-  const ImVec2 size =
-      ui.body->CalcTextSizeA(font_size(ui.body), FLT_MAX, wrap, note.c_str());
-  list.AddText(ui.body, font_size(ui.body),
-               {std::round(box.center_x() - 0.5f * size.x), std::round(box.center_y() - 0.5f * size.y)},
-               palette::dim, note.c_str(), nullptr, wrap);
+  const ImVec2 size = ui.body->CalcTextSizeA(font_size(ui.body), FLT_MAX, wrap, note.c_str());
+  list.AddText(
+      ui.body, font_size(ui.body),
+      {std::round(box.center_x() - 0.5f * size.x), std::round(box.center_y() - 0.5f * size.y)},
+      palette::dim, note.c_str(), nullptr, wrap);
 }
 
 void draw_texture(const PictureCache::Picture& picture, const PicturePlace& place) {
@@ -99,15 +98,15 @@ void draw_mark(const Ui& ui, const PicturePlace& place, glm::ivec2 pixel) {
 
 void draw_read_out(LabFrame& frame, const PictureSlot& slot, glm::ivec2 pixel) {
   const LaneSnapshot* const lane = frame.lane(slot.source);
-  const auto index = std::size_t(pixel.y) * std::size_t(frame.snapshot->width) + std::size_t(pixel.x);
+  const auto index =
+      std::size_t(pixel.y) * std::size_t(frame.snapshot->width) + std::size_t(pixel.x);
   const PixelValues values = pixel_values(*lane, index);
   const float line = font_size(frame.ui.small) + frame.ui.px(4.0f);
   const float pad = frame.ui.px(5.0f);
   const float room = slot.box.width - 2 * pad;
-  const std::string first = fmt::format("{}, {}   rgb {}", pixel.x, pixel.y,
-                                        three_numbers(values.radiance));
-  const std::vector<std::string> second =
-      read_out_texts(estimator(lane->policy.estimator), values);
+  const std::string first =
+      fmt::format("{}, {}   rgb {}", pixel.x, pixel.y, three_numbers(values.radiance));
+  const std::vector<std::string> second = read_out_texts(estimator(lane->policy.estimator), values);
   const ScreenRect strip{slot.box.x, slot.box.bottom() - 2 * line - frame.ui.px(4.0f),
                          slot.box.width, 2 * line + frame.ui.px(4.0f)};
   ImGui::GetWindowDrawList()->AddRectFilled({strip.x, strip.y}, {strip.right(), strip.bottom()},
@@ -141,8 +140,7 @@ void draw_numbers(LabFrame& frame, const PictureSlot& slot, const PicturePlace& 
       float at = place.y + (float(y) + 0.5f) * place.scale - 0.5f * line * float(lines.size());
       for (const std::string& text : lines) {
         text_at(frame.ui.small,
-                place.x + (float(x) + 0.5f) * place.scale -
-                    0.5f * text_width(frame.ui.small, text),
+                place.x + (float(x) + 0.5f) * place.scale - 0.5f * text_width(frame.ui.small, text),
                 at, color, text);
         at += line;
       }
@@ -202,9 +200,9 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const PictureCache::P
   ImGui::PushClipRect({clip.x, clip.y}, {clip.right(), clip.bottom()}, true);
   if (!picture) {
     draw_note(ui, slot.box,
-              frame.loading                     ? "loading the scene"
-              : frame.status.error.empty()      ? "waiting for the first frame"
-                                                : "nothing was rendered");
+              frame.loading                ? "loading the scene"
+              : frame.status.error.empty() ? "waiting for the first frame"
+                                           : "nothing was rendered");
   } else if (picture->view.image.empty()) {
     draw_note(ui, slot.box, picture->view.note);
   } else {
@@ -272,8 +270,7 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   }
   if (ImGui::IsItemActive()) {
-    comparison.wipe_at =
-        std::clamp((ImGui::GetIO().MousePos.x - a.box.x) / width, 0.02f, 0.98f);
+    comparison.wipe_at = std::clamp((ImGui::GetIO().MousePos.x - a.box.x) / width, 0.02f, 0.98f);
     line = a.box.x + comparison.wipe_at * width;
   }
   draw_picture_slot(frame, a);

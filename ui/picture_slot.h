@@ -7,10 +7,10 @@ namespace quartet {
 /// A picture with its controls: a combo box for what it shows, pan and zoom, the pixel under the
 /// mouse, the numbers in the pixels, the camera.
 struct PictureSlot {
-  std::size_t lane;    ///< whose column it is
-  std::size_t slot;    ///< which of the lane's two
-  std::size_t source;  ///< whose pixels are shown
-  std::size_t texture; ///< of the cache
+  std::size_t lane;     ///< whose column it is
+  std::size_t slot;     ///< which of the lane's two
+  std::size_t source;   ///< whose pixels are shown
+  std::size_t texture;  ///< of the cache
   ScreenRect box;
   bool read_out = false;  ///< says the numbers of the pixel under the mouse
 };

@@ -17,7 +17,8 @@ std::string error_text(const Estimator& row, const PixelValues& values) {
   }
   std::string text;
   for (int c = 0; c < row.channels; ++c) {
-    text += (c > 0 ? " " : "") + short_number(values.error[std::size_t(c)]);
+    text += c > 0 ? " " : "";
+    text += short_number(values.error[std::size_t(c)]);
   }
   return text;
 }

@@ -83,8 +83,8 @@ void draw_status_bar(LabFrame& frame, const ScreenRect& box) {
     ui.mark("status", box);
     return;
   }
-  // The end of a long path says more than its beginning, but the reason comes last of all: what does
-  // not fit stands in the tooltip.
+  // The end of a long path says more than its beginning, but the reason comes last of all: what
+  // does not fit stands in the tooltip.
   const bool error = message.kind == Message::Kind::error;
   std::string text = message.text;
   const std::string more = " … (point here)  ×";

@@ -8,9 +8,9 @@ namespace quartet {
 namespace {
 
 // Latin, Greek, punctuation, superscripts, arrows, mathematics, shapes: 1.86 bakes what it is told.
-constexpr ImWchar glyph_ranges[] = {0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2027, 0x2030, 0x203A,
-                                    0x2070, 0x208E, 0x2190, 0x2199, 0x2200, 0x2265, 0x25A0, 0x25CF,
-                                    0};
+constexpr ImWchar glyph_ranges[] = {0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2027,
+                                    0x2030, 0x203A, 0x2070, 0x208E, 0x2190, 0x2199,
+                                    0x2200, 0x2265, 0x25A0, 0x25CF, 0};
 
 constexpr const char* inter = "/usr/share/fonts/opentype/inter/";
 constexpr const char* dejavu = "/usr/share/fonts/truetype/dejavu/";

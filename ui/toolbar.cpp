@@ -22,8 +22,8 @@ constexpr float gap = 8.0f;
 struct Item {
   float width;
   void (*draw)(LabFrame& frame, float width);
-  bool stretch = false;     ///< takes what is left of its row
-  bool new_group = false;   ///< stands a little apart from the one before
+  bool stretch = false;    ///< takes what is left of its row
+  bool new_group = false;  ///< stands a little apart from the one before
 };
 
 float combo_width(const Ui& ui, const std::string& text) {
@@ -56,8 +56,8 @@ void draw_scene(LabFrame& frame, float width) {
     ImGui::Separator();
     ImGui::TextUnformatted("a Mitsuba 3 file");
     ImGui::SetNextItemWidth(ui.px(360.0f));
-    const bool entered = ImGui::InputText("##path", &state.path_field,
-                                          ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputText("##path", &state.path_field, ImGuiInputTextFlags_EnterReturnsTrue);
     ui.mark("scene.path");
     ImGui::SameLine();
     const bool pressed = ImGui::Button("Load");
@@ -110,8 +110,7 @@ void draw_size(LabFrame& frame, float width) {
     for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
       const int w = std::max(1, int(std::lround(factor * own_width)));
       const int h = std::max(1, int(std::lround(factor * own_height)));
-      const std::string text =
-          size_text(w, h) + (factor == 1.0 ? "   the scene's own" : "");
+      const std::string text = size_text(w, h) + (factor == 1.0 ? "   the scene's own" : "");
       if (combo_row(frame.ui, fmt::format("size.{}", w), text,
                     w == settings.width && h == settings.height)) {
         settings.width = w;
@@ -193,7 +192,8 @@ void draw_frame_slider(LabFrame& frame, float width) {
   Ui& ui = frame.ui;
   const float start = ImGui::GetCursorScreenPos().x;
   label(ui, "frame");
-  const float text = std::max(ui.px(52.0f), text_width(ui.body, frame_text(playback)) + ui.px(8.0f));
+  const float text =
+      std::max(ui.px(52.0f), text_width(ui.body, frame_text(playback)) + ui.px(8.0f));
   std::uint32_t last = std::max(playback.furthest(), playback.shown());
   if (playback.target() != Playback::no_end) {
     last = std::max(last, playback.target());

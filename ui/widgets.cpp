@@ -137,9 +137,8 @@ bool icon_button(Ui& ui, const std::string& name, Icon icon, bool enabled, float
                        ImGui::GetStyle().FrameRounding);
   }
   const float side = ui.px(plain ? 10.0f : 12.0f);
-  draw_icon(list, icon,
-            {origin.x + 0.5f * (size.x - side), origin.y + 0.5f * (size.y - side)}, side,
-            enabled ? (plain && !lit ? palette::dim : palette::text) : palette::faint);
+  draw_icon(list, icon, {origin.x + 0.5f * (size.x - side), origin.y + 0.5f * (size.y - side)},
+            side, enabled ? (plain && !lit ? palette::dim : palette::text) : palette::faint);
   return pressed;
 }
 
