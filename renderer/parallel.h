@@ -27,24 +27,29 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     char finished;
   } context{body, 0};
 #if defined(__SANITIZE_THREAD__)
+  // Of all of this also where a call throws.
+  struct AcquireAtEnd {
+    void* address;
+    ~AcquireAtEnd() { __tsan_acquire(address); }
+  };
+  struct ReleaseAtEnd {
+    void* address;
+    ~ReleaseAtEnd() { __tsan_release(address); }
+  };
+  const AcquireAtEnd after{&context.finished};
   __tsan_release(&context);
 #endif
   parallel_ranges(
       count, grain,
       [](void* pointer, std::size_t begin, std::size_t end) {
+        auto& shared = *static_cast<Context*>(pointer);
 #if defined(__SANITIZE_THREAD__)
         __tsan_acquire(pointer);
+        const ReleaseAtEnd done{&shared.finished};
 #endif
-        auto& shared = *static_cast<Context*>(pointer);
         shared.body(begin, end);
-#if defined(__SANITIZE_THREAD__)
-        __tsan_release(&shared.finished);
-#endif
       },
       &context);
-#if defined(__SANITIZE_THREAD__)
-  __tsan_acquire(&context.finished);
-#endif
 }
 
 }  // namespace quartet

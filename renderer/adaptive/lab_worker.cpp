@@ -101,9 +101,9 @@ void LabWorker::make_lab() {
 
 void LabWorker::change_lab() {
   const LabRequest& request = current_->request;
-  std::uint32_t furthest = 0;
+  std::uint32_t reached = shown_ ? shown_->frame : 0;
   for (const Lane& lane : lab_->lanes()) {
-    furthest = std::max(furthest, lane.frame());
+    reached = std::max(reached, lane.frame());
   }
   FilmStatistics statistics;
   statistics.variance = request.variance;
@@ -113,11 +113,9 @@ void LabWorker::change_lab() {
     return;
   }
   lab_->rewind_past(request.frame);
-  if (lab_->frame() < std::min(furthest, request.frame)) {
-    replaying_ = true;
-    replays_to_ = std::min(furthest, request.frame);
-    replay_start_ = Clock::now();
-  }
+  replays_to_ = std::min(reached, request.frame);
+  replaying_ = lab_->frame() < replays_to_;
+  replay_start_ = Clock::now();
 }
 
 /// Runs frames until the current request is answered in full, which gives null, or a newer one has
@@ -150,10 +148,6 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
     } else {
       report_progress();
     }
-  }
-  if (mailbox_.waiting() == Mailbox::Waiting::nothing) {
-    status_.activity = Activity::idle;
-    publish_status();
   }
   return nullptr;
 }
@@ -257,8 +251,13 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   answered_ = true;
   complete_ = shown_->frame == current_->request.frame;
   published_at_ = Clock::now();
+  if (complete_ && mailbox_.waiting() == Mailbox::Waiting::nothing) {
+    status_.activity = Activity::idle;
+  }
+  // The status goes ahead, so that whoever sees the snapshot sees no older status.
+  make_status_current();
   mailbox_.publish(shown_);
-  publish_status();
+  notify();
 }
 
 void LabWorker::describe_lab() {
@@ -269,12 +268,20 @@ void LabWorker::describe_lab() {
   status_.partial = store.partial();
 }
 
-void LabWorker::publish_status() {
+void LabWorker::make_status_current() {
   const Clock::time_point now = Clock::now();
   const bool idle = status_.activity == Activity::idle;
   status_.samples_per_second = idle ? 0.0 : meter_.per_second(now);
   status_at_ = now;
   mailbox_.publish(std::make_shared<const SessionStatus>(status_));
+}
+
+void LabWorker::publish_status() {
+  make_status_current();
+  notify();
+}
+
+void LabWorker::notify() const {
   if (notify_) {
     notify_();
   }

@@ -47,7 +47,9 @@ class LabWorker {
   void publish_shown_again();
   void publish(std::unique_ptr<Snapshot> snapshot);
   void describe_lab();
+  void make_status_current();
   void publish_status();
+  void notify() const;
   void report_progress();
 
   Mailbox& mailbox_;

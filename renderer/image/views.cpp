@@ -58,26 +58,50 @@ View error_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&)
   return numbers_view(snapshot, relative, {{0.0, 2.0, ColorMapId::turbo}, "", ""});
 }
 
-/// Six powers of ten, up to the one above the largest variance of all lanes. Powers of ten, because
+std::vector<float> largest_channel(const std::vector<float>& planes, std::size_t pixels) {
+  std::vector<float> largest(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    largest[i] = std::max({planes[i], planes[pixels + i], planes[2 * pixels + i]});
+  }
+  return largest;
+}
+
+/// The power of ten above all but 1 in 50 of the numbers, which are fireflies; first_exponent if
+/// none is above 0.
+int decade_above(std::span<const float> numbers) {
+  ErrorHistogram histogram;
+  fill_histogram(numbers, histogram);
+  const std::size_t ignored = numbers.size() / 50;
+  std::size_t above = 0;
+  int bin = ErrorHistogram::bins;
+  while (bin > 0 && above <= ignored) {
+    above += histogram.pixels[std::size_t(--bin)];
+  }
+  return above > ignored
+             ? ErrorHistogram::first_exponent + bin / ErrorHistogram::bins_per_decade + 1
+             : ErrorHistogram::first_exponent;
+}
+
+/// Six powers of ten, up to the one above nearly all variances of all lanes. Powers of ten, because
 /// the scale would else drift with every frame.
 View variance_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
   const std::size_t pixels = snapshot.pixels();
   if (snapshot.lanes[lane].variance.empty()) {
     return blank(snapshot, "the variance was not asked for");
   }
-  float highest = 0.0f;
-  for (const LaneSnapshot& each : snapshot.lanes) {
-    for (const float variance : each.variance) {
-      highest = std::max(highest, variance);
+  std::vector<float> shown;
+  int last = ErrorHistogram::first_exponent;
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    if (!snapshot.lanes[i].variance.empty()) {
+      std::vector<float> largest = largest_channel(snapshot.lanes[i].variance, pixels);
+      last = std::max(last, decade_above(largest));
+      if (i == lane) {
+        shown = std::move(largest);
+      }
     }
   }
-  const std::vector<float>& variance = snapshot.lanes[lane].variance;
-  std::vector<float> largest(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    largest[i] = std::max({variance[i], variance[pixels + i], variance[2 * pixels + i]});
-  }
-  const double end = highest > 0.0f ? std::pow(10.0, std::ceil(std::log10(highest))) : 1.0;
-  return numbers_view(snapshot, largest,
+  const double end = std::pow(10.0, last);
+  return numbers_view(snapshot, shown,
                       {{end * 1e-6, end, ColorMapId::viridis, Spacing::logarithmic}, "", ""});
 }
 
@@ -119,17 +143,22 @@ View rejected_view(const Snapshot& snapshot, std::size_t lane, const ViewSetting
   return view;
 }
 
-/// Half of a scale that holds all but 1 in 200 of the numbers, which are fireflies: 1, 2 or 5 times
-/// a power of ten, so that it stays when numbers change a little.
+/// Half of a scale that holds 19 in 20 of the numbers that are not 0; the rest is fireflies. 1, 2
+/// or 5 times a power of ten, so that it stays when numbers change a little.
 double symmetric_end(std::span<const float> numbers) {
-  std::vector<float> sizes(numbers.size());
-  std::ranges::transform(numbers, sizes.begin(), [](float number) { return std::abs(number); });
-  const auto place = sizes.begin() + std::ptrdiff_t(sizes.size() - 1 - sizes.size() / 200);
-  std::ranges::nth_element(sizes, place);
-  const double size = double(*place);
-  if (!(size > 0.0)) {
+  std::vector<float> sizes;
+  sizes.reserve(numbers.size());
+  for (const float number : numbers) {
+    if (number != 0.0f) {
+      sizes.push_back(std::abs(number));
+    }
+  }
+  if (sizes.empty()) {
     return 1.0;
   }
+  const auto place = sizes.begin() + std::ptrdiff_t(sizes.size() - 1 - sizes.size() / 20);
+  std::ranges::nth_element(sizes, place);
+  const double size = double(*place);
   const double power = std::pow(10.0, std::floor(std::log10(size)));
   const double digit = size / power;
   return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);

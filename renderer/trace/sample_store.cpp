@@ -129,12 +129,9 @@ bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const 
   std::vector<std::uint64_t> ticks(jobs.size(), 0);
   const auto start = std::chrono::steady_clock::now();
   parallel_for(jobs.size(), grain_pixels, [&](std::size_t first, std::size_t last) {
-    if (stop.stop_requested()) {
-      return;
-    }
     std::vector<glm::vec3> radiance;
     std::uint64_t before = __rdtsc();
-    for (std::size_t i = first; i != last; ++i) {
+    for (std::size_t i = first; i != last && !stop.stop_requested(); ++i) {
       const auto [pixel, count] = jobs[i];
       const Place place = places_[pixel];
       const Tile& tile = tiles_[place.tile];

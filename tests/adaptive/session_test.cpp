@@ -2,114 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <cmath>
 #include <thread>
 
-#include "renderer/adaptive/lab.h"
-#include "renderer/scene/load_scene.h"
+#include "tests/adaptive/session_cases.h"
 #include "tests/trace/test_scenes.h"
 
 namespace quartet {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr int width = 48;
-constexpr int height = 27;
-constexpr std::uint32_t frames = 8;
-
-std::shared_ptr<const TraceScene> cornell_checker() {
-  static const auto scene =
-      std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker")));
-  return scene;
-}
-
-LabRequest four_lanes() {
-  LabRequest request;
-  request.scene = cornell_checker();
-  request.settings = default_settings(request.scene->scene());
-  request.settings.width = width;
-  request.settings.height = height;
-  request.frame = frames;
-  request.threads = 2;
-  for (const EstimatorId id :
-       {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
-    request.policies.push_back(default_policy(id));
-  }
-  return request;
-}
-
-/// Waits for what the request asks for; the number of the request.
-std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
-                                         std::uint32_t frame) {
-  // Far beyond what it takes, even under a sanitizer on a busy machine: a deadlock fails the test.
-  const auto end = Clock::now() + std::chrono::seconds(120);
-  while (Clock::now() < end) {
-    const auto snapshot = session.latest();
-    if (snapshot && snapshot->request >= number && snapshot->frame == frame) {
-      return snapshot;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return nullptr;
-}
-
-std::shared_ptr<const Snapshot> answer(Session& session, const LabRequest& request) {
-  const std::uint64_t number = session.submit(request);
-  return wait_for(session, number, request.frame);
-}
-
-Snapshot headless(const LabRequest& request) {
-  LabOptions options;
-  options.threads = 1;
-  options.statistics.variance = request.variance;
-  Lab lab(sample_source(request.scene, request.settings), request.settings.width,
-          request.settings.height, request.policies, options);
-  while (lab.frame() < request.frame) {
-    lab.run_frame();
-  }
-  Snapshot snapshot;
-  copy_lanes(lab, snapshot);
-  return snapshot;
-}
-
-/// Equal to the bit in all but the seconds.
-void expect_same(const Snapshot& a, const Snapshot& b) {
-  ASSERT_EQ(a.lanes.size(), b.lanes.size());
-  EXPECT_EQ(a.frame, b.frame);
-  EXPECT_EQ(a.width, b.width);
-  EXPECT_EQ(a.height, b.height);
-  for (std::size_t i = 0; i < a.lanes.size(); ++i) {
-    const LaneSnapshot& x = a.lanes[i];
-    const LaneSnapshot& y = b.lanes[i];
-    EXPECT_EQ(x.policy, y.policy);
-    EXPECT_EQ(x.mean, y.mean);
-    EXPECT_EQ(x.taken, y.taken);
-    EXPECT_EQ(x.rejected, y.rejected);
-    EXPECT_EQ(x.error, y.error);
-    EXPECT_EQ(x.variance, y.variance);
-    EXPECT_EQ(x.plan.wanted, y.plan.wanted);
-    EXPECT_EQ(x.plan.total, y.plan.total);
-    EXPECT_EQ(x.plan.refined, y.plan.refined);
-    ASSERT_EQ(x.history.size(), y.history.size());
-    for (std::size_t f = 0; f < x.history.size(); ++f) {
-      EXPECT_EQ(x.history[f].frame, y.history[f].frame);
-      EXPECT_EQ(x.history[f].samples, y.history[f].samples);
-      EXPECT_EQ(x.history[f].max_spp, y.history[f].max_spp);
-      EXPECT_EQ(x.history[f].refined, y.history[f].refined);
-    }
-  }
-}
-
-void expect_as_headless(Session& session, const LabRequest& request) {
-  const auto snapshot = answer(session, request);
-  ASSERT_TRUE(snapshot);
-  EXPECT_EQ(snapshot->scene, request.scene);
-  EXPECT_EQ(snapshot->settings, request.settings);
-  expect_same(*snapshot, headless(request));
-}
+using namespace test;
 
 TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   Session session;
@@ -165,6 +68,149 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
     SCOPED_TRACE("frame 0");
     request.frame = 0;
     expect_as_headless(session, request);
+  }
+}
+
+std::uint64_t stored_samples(const Session& session) {
+  return session.status().stored_samples;
+}
+
+void wait_until_idle(const Session& session) {
+  const auto end = Clock::now() + patience;
+  while (session.status().activity != SessionStatus::Activity::idle && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
+  Session session;
+  LabRequest request = four_lanes();
+  ASSERT_TRUE(answer(session, request));
+  wait_until_idle(session);
+  const std::uint64_t stored = stored_samples(session);
+  EXPECT_GT(stored, std::uint64_t(width * height * frames));
+
+  request.policies[0].thresholds = {10.0f, 10.0f, 10.0f};
+  ASSERT_TRUE(answer(session, request));
+  wait_until_idle(session);
+  EXPECT_EQ(stored_samples(session), stored) << "a higher threshold needs nothing new";
+  EXPECT_GT(session.status().replay_seconds, 0.0);
+
+  request.settings.camera.origin.x += 0.1f;
+  request.frame = 1;
+  ASSERT_TRUE(answer(session, request));
+  wait_until_idle(session);
+  EXPECT_EQ(stored_samples(session), std::uint64_t(width * height));
+}
+
+TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
+  std::atomic<int> notified = 0;
+  Session session([&] { ++notified; });
+  LabRequest request = four_lanes();
+  request.frame = LabRequest::no_end;
+  session.submit(request);
+  std::uint64_t last = 0;
+  std::uint32_t frame = 0;
+  const auto end = Clock::now() + patience;
+  while (frame < 5 && Clock::now() < end) {
+    if (const auto snapshot = session.latest()) {
+      EXPECT_GE(snapshot->number, last);
+      EXPECT_GE(snapshot->frame, frame);
+      last = snapshot->number;
+      frame = snapshot->frame;
+    }
+  }
+  EXPECT_GE(frame, 5u);
+  // To stop where it stands, a window asks for the frame that it shows.
+  request.frame = session.latest()->frame;
+  expect_as_headless(session, request);
+  wait_until_idle(session);
+  EXPECT_EQ(session.status().samples_per_second, 0.0);
+  const int before = notified;
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(notified, before);
+  EXPECT_GT(before, 2);
+}
+
+TEST(SessionThreads, AShortMemoryChangesNothing) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.memory = 200'000;
+  expect_as_headless(session, request);
+  request.policies[3].thresholds[0] *= 0.5f;
+  expect_as_headless(session, request);
+  EXPECT_TRUE(session.status().partial);
+}
+
+TEST(SessionThreads, AnErrorIsReportedAndTheSessionLivesOn) {
+  Session session;
+  LabRequest request = four_lanes();
+  ASSERT_TRUE(answer(session, request));
+  const auto before = session.latest();
+
+  LabRequest impossible = request;
+  // More pixels than there are addresses for.
+  impossible.settings.width = impossible.settings.height = 1 << 30;
+  session.submit(impossible);
+  const auto end = Clock::now() + patience;
+  while (session.status().error.empty() && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_FALSE(session.status().error.empty());
+  EXPECT_EQ(session.latest(), before);
+
+  LabRequest without_lanes = request;
+  without_lanes.policies.clear();
+  session.submit(without_lanes);
+  while (session.status().error != "no lane to render" && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(session.status().error, "no lane to render");
+
+  expect_as_headless(session, request);
+  wait_until_idle(session);
+  EXPECT_EQ(session.status().error, "");
+}
+
+/// A closed white room: paths end at their longest, and a frame takes minutes.
+LabRequest endless_room() {
+  Scene room;
+  Sphere walls;
+  walls.radius = 10.0f;
+  walls.flip_normals = true;
+  test::add_shape(room, walls, test::diffuse(1.0f));
+  LabRequest request;
+  request.scene = std::make_shared<const TraceScene>(std::move(room));
+  request.settings.camera = test::pinhole({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 60.0f);
+  request.settings.width = 400;
+  request.settings.height = 300;
+  request.settings.max_depth = 20'000;
+  request.policies = {default_policy(EstimatorId::kl)};
+  return request;
+}
+
+TEST(SessionThreads, ClosesWithinTheTimeOfAFewSamples) {
+  auto session = std::make_unique<Session>();
+  session->submit(endless_room());
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto start = Clock::now();
+  session.reset();
+  // A sample takes a few milliseconds, a frame many minutes.
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(SessionThreads, ClosesAtAnyMoment) {
+  const LabRequest request = four_lanes();
+  for (int moment = 0; moment < 30; ++moment) {
+    std::shared_ptr<const Snapshot> kept;
+    {
+      Session session;
+      session.submit(request);
+      std::this_thread::sleep_for(std::chrono::microseconds(500 * moment));
+      kept = session.latest();
+    }
+    // A snapshot outlives its session.
+    EXPECT_TRUE(!kept || kept->lanes.size() == request.policies.size());
   }
 }
 

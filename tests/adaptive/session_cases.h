@@ -1,0 +1,113 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/adaptive/session.h"
+#include "renderer/scene/load_scene.h"
+
+namespace quartet::test {
+
+using Clock = std::chrono::steady_clock;
+
+inline constexpr int width = 48;
+inline constexpr int height = 27;
+inline constexpr std::uint32_t frames = 8;
+// Far beyond what anything takes, even under a sanitizer on a busy machine: a deadlock fails.
+inline constexpr auto patience = std::chrono::seconds(120);
+
+inline std::shared_ptr<const TraceScene> cornell_checker() {
+  static const auto scene =
+      std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker")));
+  return scene;
+}
+
+inline LabRequest four_lanes() {
+  LabRequest request;
+  request.scene = cornell_checker();
+  request.settings = default_settings(request.scene->scene());
+  request.settings.width = width;
+  request.settings.height = height;
+  request.frame = frames;
+  request.threads = 2;
+  for (const EstimatorId id :
+       {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
+    request.policies.push_back(default_policy(id));
+  }
+  return request;
+}
+
+/// What answers the request with this number, at this frame; null if nothing does.
+inline std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
+                                                std::uint32_t frame) {
+  const auto end = Clock::now() + patience;
+  while (Clock::now() < end) {
+    auto snapshot = session.latest();
+    if (snapshot && snapshot->request >= number && snapshot->frame == frame) {
+      return snapshot;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return nullptr;
+}
+
+inline std::shared_ptr<const Snapshot> answer(Session& session, const LabRequest& request) {
+  const std::uint64_t number = session.submit(request);
+  return wait_for(session, number, request.frame);
+}
+
+inline Snapshot headless(const LabRequest& request) {
+  LabOptions options;
+  options.threads = 1;
+  options.statistics.variance = request.variance;
+  Lab lab(sample_source(request.scene, request.settings), request.settings.width,
+          request.settings.height, request.policies, options);
+  while (lab.frame() < request.frame) {
+    lab.run_frame();
+  }
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
+  return snapshot;
+}
+
+/// Equal to the bit in all but the seconds.
+inline void expect_same(const Snapshot& a, const Snapshot& b) {
+  ASSERT_EQ(a.lanes.size(), b.lanes.size());
+  EXPECT_EQ(a.frame, b.frame);
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  for (std::size_t i = 0; i < a.lanes.size(); ++i) {
+    const LaneSnapshot& x = a.lanes[i];
+    const LaneSnapshot& y = b.lanes[i];
+    EXPECT_EQ(x.policy, y.policy);
+    EXPECT_EQ(x.mean, y.mean);
+    EXPECT_EQ(x.taken, y.taken);
+    EXPECT_EQ(x.rejected, y.rejected);
+    EXPECT_EQ(x.error, y.error);
+    EXPECT_EQ(x.variance, y.variance);
+    EXPECT_EQ(x.plan.wanted, y.plan.wanted);
+    EXPECT_EQ(x.plan.total, y.plan.total);
+    EXPECT_EQ(x.plan.refined, y.plan.refined);
+    ASSERT_EQ(x.history.size(), y.history.size());
+    for (std::size_t f = 0; f < x.history.size(); ++f) {
+      EXPECT_EQ(x.history[f].frame, y.history[f].frame);
+      EXPECT_EQ(x.history[f].samples, y.history[f].samples);
+      EXPECT_EQ(x.history[f].max_spp, y.history[f].max_spp);
+      EXPECT_EQ(x.history[f].refined, y.history[f].refined);
+    }
+  }
+}
+
+inline void expect_as_headless(Session& session, const LabRequest& request) {
+  const auto snapshot = answer(session, request);
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->scene, request.scene);
+  EXPECT_EQ(snapshot->settings, request.settings);
+  expect_same(*snapshot, headless(request));
+}
+
+}  // namespace quartet::test

@@ -1,0 +1,204 @@
+// What a window waits for: submit and latest while the renderer works, a dragged threshold until
+// its picture is there, and what it makes of a snapshot.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "renderer/adaptive/session.h"
+#include "renderer/image/lane_charts.h"
+#include "renderer/image/views.h"
+#include "tests/bench/bench_scene.h"
+
+namespace quartet {
+namespace {
+
+constexpr int width = 480;
+constexpr int height = 270;
+
+LabRequest lab_request(std::size_t lanes, int threads) {
+  const BenchScene bench("cornell-checker", width, height);
+  LabRequest request;
+  request.scene = bench.scene;
+  request.settings = bench.settings;
+  request.threads = threads;
+  constexpr std::array ids{EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2,
+                           EstimatorId::hellinger};
+  for (std::size_t i = 0; i < lanes; ++i) {
+    request.policies.push_back(default_policy(ids[i]));
+  }
+  return request;
+}
+
+std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
+                                         std::uint32_t frame) {
+  for (;;) {
+    auto snapshot = session.latest();
+    if (snapshot && snapshot->request >= number && snapshot->frame == frame) {
+      return snapshot;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+}
+
+/// Calls alternate with what a window does between two pictures, so that they meet the renderer at
+/// any moment.
+void calls_while_busy(benchmark::State& state) {
+  Session session;
+  LabRequest request = lab_request(4, 0);
+  request.frame = LabRequest::no_end;
+  wait_for(session, session.submit(request), 1);
+  std::vector<double> submits;
+  std::vector<double> latests;
+  const auto timed = [](std::vector<double>& times, const auto& call) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    times.push_back(1e6 * seconds_since(start));
+  };
+  int step = 0;
+  std::shared_ptr<const Snapshot> shown;
+  for (auto _ : state) {
+    LabRequest next = request;
+    next.policies[1].thresholds[0] *= 1.0f + 0.001f * float(++step % 100);
+    timed(submits, [&] { session.submit(std::move(next)); });
+    timed(latests, [&] { shown = session.latest(); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  for (auto [times, name] : {std::pair(&submits, "submit"), std::pair(&latests, "latest")}) {
+    std::ranges::sort(*times);
+    state.counters[std::string(name) + "_median_us"] = (*times)[times->size() / 2];
+    state.counters[std::string(name) + "_worst_us"] = times->back();
+  }
+}
+BENCHMARK(calls_while_busy)->Iterations(2000)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// From the request with other thresholds to the snapshot that answers it, all samples stored.
+void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dragged,
+                      int threads) {
+  Session session;
+  LabRequest request = lab_request(lanes, threads);
+  const std::vector<SamplingPolicy> original = request.policies;
+  const auto drag_to = [&](int step) {
+    for (std::size_t i = 0; i < dragged; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        request.policies[i].thresholds[c] =
+            original[i].thresholds[c] * (1.0f + 0.01f * float(step));
+      }
+    }
+    wait_for(session, session.submit(request), request.frame);
+  };
+  constexpr int steps = 10;
+  for (int step = 0; step < steps; ++step) {
+    drag_to(step);
+  }
+  const std::uint64_t stored = session.status().stored_samples;
+  int step = 0;
+  for (auto _ : state) {
+    drag_to(step++ % steps);
+  }
+  state.counters["replay_ms"] = 1e3 * session.status().replay_seconds;
+  state.counters["traced"] = double(session.status().stored_samples - stored);
+}
+BENCHMARK_CAPTURE(drag_to_snapshot, the_only_lane_one_thread, 1, 1, 1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag_to_snapshot, one_lane_of_four_one_thread, 4, 1, 1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag_to_snapshot, four_lanes_two_threads, 4, 4, 2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+void camera_to_first_picture(benchmark::State& state) {
+  Session session;
+  LabRequest request = lab_request(4, 2);
+  for (auto _ : state) {
+    request.settings.camera.origin.x += 1e-4f;
+    wait_for(session, session.submit(request), 1);
+  }
+}
+BENCHMARK(camera_to_first_picture)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void close_while_busy(benchmark::State& state) {
+  LabRequest request = lab_request(4, 2);
+  request.frame = LabRequest::no_end;
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto session = std::make_unique<Session>();
+    wait_for(*session, session->submit(request), 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    state.ResumeTiming();
+    session.reset();
+  }
+}
+BENCHMARK(close_while_busy)->Iterations(5)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+Snapshot four_lanes_after(std::uint32_t frames) {
+  const LabRequest request = lab_request(4, 2);
+  LabOptions options;
+  options.statistics.variance = true;
+  Lab lab(sample_source(request.scene, request.settings), width, height, request.policies, options);
+  while (lab.frame() < frames) {
+    lab.run_frame();
+  }
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
+  return snapshot;
+}
+
+void copy_of_four_lanes(benchmark::State& state) {
+  const LabRequest request = lab_request(4, 2);
+  Lab lab(sample_source(request.scene, request.settings), width, height, request.policies);
+  while (lab.frame() < 15) {
+    lab.run_frame();
+  }
+  Snapshot snapshot;
+  for (auto _ : state) {
+    copy_lanes(lab, snapshot);
+  }
+}
+BENCHMARK(copy_of_four_lanes)->Unit(benchmark::kMillisecond);
+
+void histograms_of_a_lane(benchmark::State& state) {
+  const Snapshot snapshot = four_lanes_after(15);
+  const LaneSnapshot& lane = snapshot.lanes[1];
+  SampleHistogram samples;
+  ErrorHistogram errors;
+  for (auto _ : state) {
+    fill_histogram(lane.taken, samples);
+    fill_histogram(lane.error, errors);
+  }
+}
+BENCHMARK(histograms_of_a_lane)->Unit(benchmark::kMillisecond);
+
+void views_of_a_lane(benchmark::State& state) {
+  static const Snapshot snapshot = four_lanes_after(15);
+  const ViewRow& row = views()[std::size_t(state.range(0))];
+  ViewSettings settings;
+  settings.other = 1;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(draw_view(snapshot, 0, row.key, settings));
+  }
+  state.SetLabel(std::string(row.id));
+}
+BENCHMARK(views_of_a_lane)->DenseRange(0, 6)->Unit(benchmark::kMillisecond);
+
+void charts_of_a_lane(benchmark::State& state) {
+  static const Snapshot snapshot = four_lanes_after(15);
+  const ColorScale scale = heat_scale(snapshot, 0, HeatRange::linked);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(sample_chart(snapshot, 0, scale));
+    benchmark::DoNotOptimize(
+        error_chart(snapshot, 0, snapshot.lanes[0].policy.thresholds, {255, 160, 40}));
+    benchmark::DoNotOptimize(progress_chart(snapshot, 0, {255, 160, 40}));
+  }
+}
+BENCHMARK(charts_of_a_lane)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace quartet
