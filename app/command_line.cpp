@@ -54,6 +54,7 @@ int run_command_line(int argc, const char* const* argv) {
       "  quartet list");
   add_figure_command(app, program);
   add_render_command(app, program);
+  add_screenshot_command(app, program);
   add_list_command(app, program);
   try {
     app.parse(argc, argv);

@@ -21,6 +21,7 @@ struct Program {
 /// callback throws UsageError or any other std::exception. `program` must outlive the parsing.
 void add_figure_command(CLI::App& app, const Program& program);
 void add_render_command(CLI::App& app, const Program& program);
+void add_screenshot_command(CLI::App& app, const Program& program);
 void add_list_command(CLI::App& app, const Program& program);
 
 /// What the program does without a command: the figure of the default scene into out/.

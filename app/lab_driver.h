@@ -31,6 +31,7 @@ class LabDriver {
   bool settled() const;
 
   LabWindow& window() { return window_; }
+  SessionStatus status() const { return session_.status(); }
   const std::shared_ptr<const Snapshot>& snapshot() const { return snapshot_; }
 
  private:

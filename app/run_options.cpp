@@ -15,25 +15,6 @@ namespace {
 
 constexpr double gib = 1024.0 * 1024.0 * 1024.0;
 
-/// "960x540"
-void parse_size(const std::string& text, RenderSettings& settings) {
-  const char* const end = text.data() + text.size();
-  int width = 0;
-  int height = 0;
-  const auto [x, width_error] = std::from_chars(text.data(), end, width);
-  bool good = width_error == std::errc() && x != end && *x == 'x';
-  if (good) {
-    const auto [stop, height_error] = std::from_chars(x + 1, end, height);
-    good = height_error == std::errc() && stop == end;
-  }
-  if (!good || width < 1 || height < 1) {
-    throw UsageError(fmt::format(
-        "--size: '{}' is not a size; write width x height in pixels, such as 960x540", text));
-  }
-  settings.width = width;
-  settings.height = height;
-}
-
 /// A picture that cannot fit should be refused before an hour of work, not after.
 void check_memory(const RenderSettings& settings, std::size_t lanes) {
   // A pixel of a lane (film with variance, error, counts, plan) and of the store with a few
@@ -81,14 +62,32 @@ void set_camera(const std::vector<float>& numbers, Camera& camera) {
 
 }  // namespace
 
-void add_run_options(CLI::App& command, RunOptions& options) {
+PictureSize parse_size(const std::string& option, const std::string& text) {
+  const char* const end = text.data() + text.size();
+  int width = 0;
+  int height = 0;
+  const auto [x, width_error] = std::from_chars(text.data(), end, width);
+  bool good = width_error == std::errc() && x != end && *x == 'x';
+  if (good) {
+    const auto [stop, height_error] = std::from_chars(x + 1, end, height);
+    good = height_error == std::errc() && stop == end;
+  }
+  if (!good || width < 1 || height < 1) {
+    throw UsageError(fmt::format(
+        "{}: '{}' is not a size; write width x height in pixels, such as 960x540", option, text));
+  }
+  return {width, height};
+}
+
+void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
+  options.size_name = size_name;
   command
       .add_option("scene", options.scene, "A Mitsuba 3 XML file, or the name of a built-in scene")
       ->required();
   command.add_option("-D", options.defines, "A parameter of the scene file: name=value")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--size", options.size, "Picture size; the scene's own if not given")
+  command.add_option(size_name, options.size, "Picture size; the scene's own if not given")
       ->type_name("WxH");
   command.add_option("--integrator", options.integrator, "How light is found: kajiya or mis")
       ->capture_default_str();
@@ -140,7 +139,9 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
     run.settings.max_depth = *options.max_depth;
   }
   if (!options.size.empty()) {
-    parse_size(options.size, run.settings);
+    const PictureSize size = parse_size(options.size_name, options.size);
+    run.settings.width = size.width;
+    run.settings.height = size.height;
   }
   if (!options.camera.empty()) {
     set_camera(options.camera, run.settings.camera);

@@ -1,5 +1,6 @@
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -100,6 +101,11 @@ void set_theme(Ui& ui, float scale) {
   set(ImGuiCol_TextSelectedBg, IM_COL32(60, 110, 180, 200));
   set(ImGuiCol_ModalWindowDimBg, IM_COL32(0, 0, 0, 120));
   set(ImGuiCol_NavHighlight, 0);
+}
+
+float natural_scale(int width, int height) {
+  const float fits = std::min(float(width) / 1600.0f, float(height) / 1000.0f);
+  return std::max(1.0f, std::floor(4.0f * fits) / 4.0f);
 }
 
 std::array<float, 4> clear_color() {

@@ -50,6 +50,9 @@ struct Ui {
 /// before its first frame.
 void set_theme(Ui& ui, float scale);
 
+/// A scale of text and controls that suits a window whose monitor says nothing.
+float natural_scale(int width, int height);
+
 /// The background that an application clears its window to.
 std::array<float, 4> clear_color();
 
