@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/number_check.h"
 #include "app/shell_words.h"
 #include "renderer/version.h"
 
@@ -47,11 +48,20 @@ int run_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", fmt::format("quartet {}", version()));
   app.require_subcommand(0, 1);
   app.footer(
-      "Without a command: the figure of scenes/cornell-checker.xml into out/.\n"
+      "Without a command: the lab window; without a display, the report's figures into out/.\n"
       "Examples:\n"
+      "  quartet veach-plates\n"
       "  quartet figure cornell-checker --out out\n"
       "  quartet render veach-plates --estimator uniform --spp 64 -o plates.exr\n"
       "  quartet list");
+  WindowOptions window;
+  app.add_option("scene", window.scene,
+                 "For the window: a Mitsuba 3 XML file, or the name of a built-in scene");
+  app.add_option("--ui-scale", window.ui_scale,
+                 "For the window: size of text and controls; the monitor's if not given")
+      ->check(number_between(0.5, 8.0));
+  app.add_flag("--reset-settings", window.reset_settings,
+               "For the window: forget layout, views and last scene");
   add_figure_command(app, program);
   add_render_command(app, program);
   add_screenshot_command(app, program);
@@ -59,7 +69,7 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
-      run_default_figure(program);
+      run_lab_window(window, program);
     }
     return 0;
   } catch (const CLI::ParseError& error) {

@@ -89,8 +89,10 @@ void add_figure_command(CLI::App& app, const Program& program) {
   command->callback([options, &program] { run_figure(*options, program); });
 }
 
-void run_default_figure(const Program& program) {
-  run_figure({}, program);
+void run_default_figure(const Program& program, const std::string& scene) {
+  FigureOptions options;
+  options.run.scene = scene.empty() ? options.run.scene : scene;
+  run_figure(options, program);
 }
 
 }  // namespace quartet

@@ -105,8 +105,9 @@ std::vector<ScreenRect> lane_panels(const Ui& ui, const ScreenRect& area, LabLay
   const std::size_t columns = layout == LabLayout::grid ? 2 : count;
   const std::size_t rows = (count + columns - 1) / columns;
   const float between = ui.px(gap);
-  const float width = (area.width - float(columns - 1) * between) / float(columns);
-  const float height = (area.height - float(rows - 1) * between) / float(rows);
+  // Whole pixels, and as many in each, so that their pictures are of one size.
+  const float width = std::floor((area.width - float(columns - 1) * between) / float(columns));
+  const float height = std::floor((area.height - float(rows - 1) * between) / float(rows));
   std::vector<ScreenRect> panels;
   for (std::size_t i = 0; i < count; ++i) {
     panels.push_back(rounded({area.x + float(i % columns) * (width + between),

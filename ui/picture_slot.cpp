@@ -34,7 +34,7 @@ bool edit_choice(Ui& ui, const PictureSlot& slot, SlotChoice& choice) {
   ImGui::PushFont(ui.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(6.0f), ui.px(2.0f)});
   ImGui::PushStyleColor(ImGuiCol_FrameBg, palette::shade);
-  ImGui::PushStyleColor(ImGuiCol_Button, 0);
+  ImGui::PushStyleColor(ImGuiCol_Button, palette::shade);
   const std::string name = slot_name(slot) + ".view";
   const std::string shown = choice_label(choice);
   const float width = text_width(ui.small, shown) + ui.px(14.0f) + ImGui::GetFrameHeight();
