@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/number_check.h"
+#include "app/shell_words.h"
 #include "renderer/version.h"
 
 namespace quartet {
@@ -15,25 +17,11 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
-/// A word as a POSIX shell would have to read it.
-std::string quoted(std::string_view word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-    return std::string(word);
-  }
-  std::string text = "'";
-  for (const char c : word) {
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return text + "'";
-}
-
 std::string joined_command_line(int argc, const char* const* argv) {
   std::string text = "quartet";
   for (int i = 1; i < argc; ++i) {
     text += ' ';
-    text += quoted(argv[i]);
+    text += shell_word(argv[i]);
   }
   return text;
 }
@@ -60,18 +48,28 @@ int run_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", fmt::format("quartet {}", version()));
   app.require_subcommand(0, 1);
   app.footer(
-      "Without a command: the figure of scenes/cornell-checker.xml into out/.\n"
+      "Without a command: the lab window; without a display, the report's figures into out/.\n"
       "Examples:\n"
+      "  quartet veach-plates\n"
       "  quartet figure cornell-checker --out out\n"
       "  quartet render veach-plates --estimator uniform --spp 64 -o plates.exr\n"
       "  quartet list");
+  WindowOptions window;
+  app.add_option("scene", window.scene,
+                 "For the window: a Mitsuba 3 XML file, or the name of a built-in scene");
+  app.add_option("--ui-scale", window.ui_scale,
+                 "For the window: size of text and controls; the monitor's if not given")
+      ->check(number_between(0.5, 8.0));
+  app.add_flag("--reset-settings", window.reset_settings,
+               "For the window: forget layout, views and last scene");
   add_figure_command(app, program);
   add_render_command(app, program);
+  add_screenshot_command(app, program);
   add_list_command(app, program);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
-      run_default_figure(program);
+      run_lab_window(window, program);
     }
     return 0;
   } catch (const CLI::ParseError& error) {

@@ -21,9 +21,21 @@ struct Program {
 /// callback throws UsageError or any other std::exception. `program` must outlive the parsing.
 void add_figure_command(CLI::App& app, const Program& program);
 void add_render_command(CLI::App& app, const Program& program);
+void add_screenshot_command(CLI::App& app, const Program& program);
 void add_list_command(CLI::App& app, const Program& program);
 
-/// What the program does without a command: the figure of the default scene into out/.
-void run_default_figure(const Program& program);
+/// The options of the window, which is what the program opens without a command.
+struct WindowOptions {
+  std::string scene;      ///< empty: the last one
+  float ui_scale = 0.0f;  ///< 0: as last time, or as the monitor says
+  bool reset_settings = false;
+};
+
+/// Opens the lab window until it is closed. Without a display it says so and makes the report's
+/// figures instead.
+void run_lab_window(const WindowOptions& options, const Program& program);
+
+/// The report's figures of a scene, the default one if none is named, into out/.
+void run_default_figure(const Program& program, const std::string& scene);
 
 }  // namespace quartet

@@ -80,11 +80,13 @@ void write_output(const std::filesystem::path& path, const Program& program, con
   const std::filesystem::path temporary = files.stage(path.filename().string());
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
+  snapshot.scene = run.scene;
+  snapshot.settings = run.settings;
   if (path.extension() == ".png") {
     write_png(temporary, draw_view(snapshot, 0, ViewKind::image, {}).image);
   } else {
     ExrImage exr = lane_exr(snapshot, 0);
-    exr.attributes = exr_attributes(program, run, lab.lanes().front());
+    exr.attributes = exr_attributes(program.command_line, snapshot, 0);
     write_exr(temporary, exr);
   }
   files.commit();

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "app/commands.h"
 #include "app/number_check.h"
@@ -13,25 +14,6 @@ namespace quartet {
 namespace {
 
 constexpr double gib = 1024.0 * 1024.0 * 1024.0;
-
-/// "960x540"
-void parse_size(const std::string& text, RenderSettings& settings) {
-  const char* const end = text.data() + text.size();
-  int width = 0;
-  int height = 0;
-  const auto [x, width_error] = std::from_chars(text.data(), end, width);
-  bool good = width_error == std::errc() && x != end && *x == 'x';
-  if (good) {
-    const auto [stop, height_error] = std::from_chars(x + 1, end, height);
-    good = height_error == std::errc() && stop == end;
-  }
-  if (!good || width < 1 || height < 1) {
-    throw UsageError(fmt::format(
-        "--size: '{}' is not a size; write width x height in pixels, such as 960x540", text));
-  }
-  settings.width = width;
-  settings.height = height;
-}
 
 /// A picture that cannot fit should be refused before an hour of work, not after.
 void check_memory(const RenderSettings& settings, std::size_t lanes) {
@@ -62,16 +44,50 @@ SceneParameters parse_defines(const std::vector<std::string>& defines) {
   return parameters;
 }
 
+void set_camera(const std::vector<float>& numbers, Camera& camera) {
+  const auto vector = [&](std::size_t first) {
+    return glm::vec3(numbers[first], numbers[first + 1], numbers[first + 2]);
+  };
+  camera.origin = vector(0);
+  camera.right = vector(3);
+  camera.up = vector(6);
+  camera.forward = vector(9);
+  for (const glm::vec3 axis : {camera.right, camera.up, camera.forward}) {
+    // Also false for numbers that are not finite.
+    if (!(std::abs(glm::length(axis) - 1.0f) < 1e-3f)) {
+      throw UsageError("--camera: right, up and forward must have length 1");
+    }
+  }
+}
+
 }  // namespace
 
-void add_run_options(CLI::App& command, RunOptions& options) {
+PictureSize parse_size(const std::string& option, const std::string& text) {
+  const char* const end = text.data() + text.size();
+  int width = 0;
+  int height = 0;
+  const auto [x, width_error] = std::from_chars(text.data(), end, width);
+  bool good = width_error == std::errc() && x != end && *x == 'x';
+  if (good) {
+    const auto [stop, height_error] = std::from_chars(x + 1, end, height);
+    good = height_error == std::errc() && stop == end;
+  }
+  if (!good || width < 1 || height < 1) {
+    throw UsageError(fmt::format(
+        "{}: '{}' is not a size; write width x height in pixels, such as 960x540", option, text));
+  }
+  return {width, height};
+}
+
+void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
+  options.size_name = size_name;
   command
       .add_option("scene", options.scene, "A Mitsuba 3 XML file, or the name of a built-in scene")
       ->required();
   command.add_option("-D", options.defines, "A parameter of the scene file: name=value")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--size", options.size, "Picture size; the scene's own if not given")
+  command.add_option(size_name, options.size, "Picture size; the scene's own if not given")
       ->type_name("WxH");
   command.add_option("--integrator", options.integrator, "How light is found: kajiya or mis")
       ->capture_default_str();
@@ -81,6 +97,12 @@ void add_run_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::Range(1, 1'000'000));
   command.add_option("--seed", options.seed, "Another seed, other random numbers")
       ->capture_default_str();
+  command
+      .add_option("--camera", options.camera,
+                  "Another place for the camera: origin, right, up, forward, 3 numbers each; the "
+                  "window writes it")
+      ->delimiter(',')
+      ->expected(12);
   command.add_option("--threads", options.threads, "0: one a processor")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -117,7 +139,12 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
     run.settings.max_depth = *options.max_depth;
   }
   if (!options.size.empty()) {
-    parse_size(options.size, run.settings);
+    const PictureSize size = parse_size(options.size_name, options.size);
+    run.settings.width = size.width;
+    run.settings.height = size.height;
+  }
+  if (!options.camera.empty()) {
+    set_camera(options.camera, run.settings.camera);
   }
   check_memory(run.settings, lanes);
   run.lab.threads = options.threads;

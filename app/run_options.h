@@ -17,9 +17,11 @@ struct RunOptions {
   std::string scene = "cornell-checker";
   std::vector<std::string> defines;
   std::string size;
+  std::string size_name = "--size";
   std::string integrator = "mis";
   std::optional<int> max_depth;
   std::uint64_t seed = 0;
+  std::vector<float> camera;
   int threads = 0;
   double memory_gib = 2.0;
   std::string policy = "vote";
@@ -28,8 +30,16 @@ struct RunOptions {
   std::uint32_t max_spp = SamplingPolicy{}.max_spp;
 };
 
-/// Adds them to a command.
-void add_run_options(CLI::App& command, RunOptions& options);
+/// Adds them to a command; `size_name` is what the picture size is called where --size is something
+/// else.
+void add_run_options(CLI::App& command, RunOptions& options,
+                     const std::string& size_name = "--size");
+
+struct PictureSize {
+  int width, height;
+};
+/// "960x540"; throws UsageError that begins with the option's name.
+PictureSize parse_size(const std::string& option, const std::string& text);
 
 /// What to render.
 struct Run {

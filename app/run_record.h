@@ -1,25 +1,35 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
-#include "app/commands.h"
-#include "app/run_options.h"
+#include "renderer/adaptive/snapshot.h"
 
 namespace quartet {
 
+class SampleStore;
+
 /// What a run was and what came of it, for files. All settings, so that the command line and this
-/// reproduce every pixel.
+/// reproduce every pixel. Snapshots know their scene and settings here.
+
+/// What the run as a whole took.
+struct RunCost {
+  int threads = 0;
+  const SampleStore* store = nullptr;
+};
 
 /// Text attributes for the header of a lane's EXR.
-std::map<std::string, std::string> exr_attributes(const Program& program, const Run& run,
-                                                  const Lane& lane);
+std::map<std::string, std::string> exr_attributes(const std::string& command_line,
+                                                  const Snapshot& snapshot, std::size_t lane);
 
-/// One JSON document: settings, store, and each lane with its history.
-std::string json_record(const Program& program, const Run& run, const Lab& lab);
+/// One JSON document: settings, the store if its cost is known, and each lane with its history.
+std::string json_record(const std::string& command_line, const Snapshot& snapshot,
+                        const std::optional<RunCost>& cost);
 
 /// Long form, one row a measurement: scene, estimator, policy, thresholds, seed, frame, seconds,
 /// samples, mean_spp, metric, value. Every frame of every lane.
-std::string csv_record(const Run& run, const Lab& lab);
+std::string csv_record(const Snapshot& snapshot);
 
 }  // namespace quartet

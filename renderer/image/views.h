@@ -25,6 +25,7 @@ struct ViewSettings {
   ToneMap tone_map = ToneMap::clamp;
   HeatRange heat = HeatRange::linked;
   std::size_t other = 0;  ///< difference: the lane that is subtracted
+  bool operator==(const ViewSettings&) const = default;
 };
 
 /// What a colour means where colours are not numbers.

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "ui/lab_state.h"
+
+namespace quartet {
+
+/// What the window remembers from one time to the next: layout, views, scene, sizes. Thresholds are
+/// not among it: an experiment begins with what the papers and the report say.
+struct WindowMemory {
+  int width = 1600;
+  int height = 1000;
+};
+
+/// settings.json in the folder "quartet" under $XDG_CONFIG_HOME, or under ~/.config. Empty if there
+/// is neither.
+std::filesystem::path config_path();
+
+/// What the file says replaces what the state says; a missing file changes nothing. Returns what is
+/// wrong with one that cannot be read, else an empty text.
+std::string load_config(const std::filesystem::path& path, LabState& state, WindowMemory& memory);
+
+/// Throws std::runtime_error.
+void save_config(const std::filesystem::path& path, const LabState& state,
+                 const WindowMemory& memory);
+
+}  // namespace quartet

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/commands.h"
+#include "app/config_file.h"
+#include "app/imgui_screen.h"
+#include "app/lab_driver.h"
+#include "app/window.h"
+
+namespace quartet {
+namespace {
+
+/// A file's name holds wherever the program is started next; a built-in name holds as it is.
+std::string lasting_name(const std::string& scene) {
+  std::error_code error;
+  return std::filesystem::exists(scene, error) ? std::filesystem::absolute(scene).string() : scene;
+}
+
+bool can_be_found(const std::string& scene) {
+  try {
+    find_scene(scene);
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
+}
+
+void run_window(const WindowOptions& options) {
+  const std::filesystem::path config = config_path();
+  if (options.reset_settings && !config.empty()) {
+    std::filesystem::remove(config);
+  }
+  LabState state = initial_state();
+  WindowMemory memory;
+  const std::string complaint = load_config(config, state, memory);
+  if (!options.scene.empty()) {
+    state.scene = lasting_name(find_scene(options.scene) == options.scene
+                                   ? options.scene
+                                   : std::filesystem::path(options.scene).stem().string());
+  } else if (!can_be_found(state.scene)) {
+    state.scene = LabState().scene;  // the last one was moved away
+  }
+  state.ui_scale = options.ui_scale > 0.0f ? options.ui_scale : state.ui_scale;
+
+  Window window("Quartet", memory.width, memory.height);
+  ImguiScreen screen;
+  const float scale = state.ui_scale > 0.0f ? state.ui_scale : window.monitor_scale();
+  const std::string scene = state.scene;
+  LabDriver driver(std::move(state), scale, window.gl(), [&window] { window.wake(); });
+  if (!complaint.empty()) {
+    driver.window().say(Message::Kind::error, complaint);
+  }
+  driver.load(scene);
+  WindowHandlers handlers;
+  handlers.key = [&](const KeyEvent& event) { driver.window().key(event); };
+  handlers.drop = [&](const std::string& path) { driver.load(path); };
+  handlers.wants_to_close = [&] { return driver.window().state().quit; };
+  handlers.draw = [&](double seconds) {
+    window.begin_imgui_frame();
+    screen.begin_frame();
+    const bool again = driver.draw(seconds);
+    int width = 0;
+    int height = 0;
+    window.framebuffer_size(width, height);
+    screen.end_frame(window.gl(), width, height);
+    window.swap();
+    return again;
+  };
+  const std::shared_ptr<void> attached = window.attach_imgui(std::move(handlers));
+  window.run();
+  window.size(memory.width, memory.height);
+  if (!config.empty()) {
+    LabState last = driver.window().state();
+    last.scene = lasting_name(last.scene);
+    save_config(config, last, memory);
+  }
+}
+
+}  // namespace
+
+void run_lab_window(const WindowOptions& options, const Program& program) {
+  try {
+    run_window(options);
+  } catch (const NoDisplay& error) {
+    fmt::print(stderr,
+               "quartet: no window: {}. Without one there are: quartet figure SCENE --out DIR, and "
+               "quartet screenshot SCENE -o LAB.png. Writing the report's figures to out/.\n",
+               error.what());
+    run_default_figure(program, options.scene);
+  }
+}
+
+}  // namespace quartet

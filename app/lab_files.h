@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/run_record.h"
+#include "renderer/image/staged_files.h"
+#include "renderer/image/views.h"
+
+namespace quartet {
+
+/// Everything that is saved of lanes at a frame, by the command line and by the window: the two
+/// figures (images and heatmaps, PNG and PDF), each lane's EXR, PNG and heatmap, panels.csv and
+/// panels.json.
+void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
+                     const std::string& command_line, const std::optional<RunCost>& cost);
+
+}  // namespace quartet

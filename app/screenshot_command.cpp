@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/imgui_screen.h"
+#include "app/interrupt.h"
+#include "app/lab_driver.h"
+#include "app/lane_option.h"
+#include "app/number_check.h"
+#include "app/offscreen.h"
+#include "app/progress.h"
+#include "renderer/image/png.h"
+#include "renderer/image/staged_files.h"
+
+namespace quartet {
+namespace {
+
+struct ScreenshotOptions {
+  RunOptions run;
+  LaneOptions lanes;
+  ViewOptions view;
+  std::uint32_t frames = 15;
+  std::string window = "1600x1000";
+  float scale = 0.0f;
+  std::string layout = "columns";
+  std::vector<std::string> views{"image", "heatmap"};
+  std::string output;
+};
+
+LabLayout layout_of(const std::string& id) {
+  constexpr std::array ids{"columns", "grid", "large"};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (id == ids[i]) {
+      return LabLayout(i);
+    }
+  }
+  throw UsageError(
+      fmt::format("--layout: unknown layout '{}'; there are: columns, grid, large", id));
+}
+
+LabState state_of(const ScreenshotOptions& options, const Run& run) {
+  LabState state = initial_state();
+  set_scene(state, run.scene);
+  state.scene = options.run.scene;
+  state.request.settings = run.settings;
+  state.request.policies = policies_of(options.lanes, options.run);
+  state.request.policies.resize(std::min(state.request.policies.size(), lane_count));
+  state.request.memory = run.lab.memory;
+  state.request.threads = run.lab.threads;
+  state.view = view_settings(options.view);
+  state.layout = layout_of(options.layout);
+  state.playback.set_target(options.frames);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (std::size_t slot = 0; slot < 2; ++slot) {
+      const std::string& id = options.views[std::min(slot, options.views.size() - 1)];
+      // The lanes are compared with the first, and that one with the second.
+      state.slots[lane][slot] = {find_view(id).key, std::size_t(lane == 0 ? 1 : 0)};
+    }
+  }
+  return state;
+}
+
+void run_screenshot(const ScreenshotOptions& options) {
+  const std::filesystem::path output = options.output;
+  if (output.extension() != ".png") {
+    throw UsageError(fmt::format("-o: '{}' is no .png", options.output));
+  }
+  const PictureSize size = parse_size("--size", options.window);
+  const Run run = prepare_run(options.run, lane_count);
+  LabState state = state_of(options, run);
+  StagedFiles files(output.parent_path());
+  Offscreen offscreen(size.width, size.height);
+  ImguiScreen screen;
+  ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};
+  ImGui::GetIO().MousePos = {-1.0f, -1.0f};
+  const float scale = options.scale > 0.0f ? options.scale : natural_scale(size.width, size.height);
+  LabDriver driver(std::move(state), scale, offscreen.gl(), [] {});
+  const auto draw = [&] {
+    ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
+    screen.begin_frame();
+    driver.draw(0.0);
+    screen.end_frame(offscreen.gl(), size.width, size.height);
+  };
+  draw();
+  const Interrupt interrupt;
+  Progress progress("rendering");
+  while (!driver.settled()) {
+    if (interrupt.token().stop_requested()) {
+      throw Interrupted();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    draw();
+    const std::uint32_t frame = driver.snapshot() ? driver.snapshot()->frame : 0;
+    progress.update(double(frame) / double(options.frames),
+                    fmt::format("frame {} of {}", frame, options.frames));
+    if (const std::string error = driver.status().error; !error.empty()) {
+      throw std::runtime_error(error);
+    }
+  }
+  // What is idle says so, and what is laid out by its own size is in its place.
+  for (int i = 0; i < 3; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(40));
+    draw();
+  }
+  write_png(files.stage(output.filename().string()), offscreen.read());
+  files.commit();
+}
+
+}  // namespace
+
+void add_screenshot_command(CLI::App& app, const Program&) {
+  CLI::App* command =
+      app.add_subcommand("screenshot", "The lab window as a PNG, drawn without a display");
+  const auto options = std::make_shared<ScreenshotOptions>();
+  add_run_options(*command, options->run, "--render-size");
+  add_lane_options(*command, options->lanes);
+  add_view_options(*command, options->view);
+  command->add_option("--frames", options->frames, "Rounds of sampling")
+      ->check(CLI::Range(1u, 10'000'000u))
+      ->capture_default_str();
+  command->add_option("--size", options->window, "Of the window")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command
+      ->add_option("--scale", options->scale,
+                   "Of text and controls; what suits the size if not given")
+      ->check(number_between(0.5, 8.0));
+  command->add_option("--layout", options->layout, "columns, grid or large")->capture_default_str();
+  command
+      ->add_option(
+          "--views", options->views,
+          "What the two pictures of each lane show: image, heatmap, error, variance, stop, "
+          "rejected or difference")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "A .png")->required();
+  command->footer(
+      "Examples:\n"
+      "  quartet screenshot cornell-checker --frames 15 --size 1600x1000 -o lab.png\n"
+      "  quartet screenshot veach-plates --views error,difference --layout grid -o plates.png");
+  command->callback([options] { run_screenshot(*options); });
+}
+
+}  // namespace quartet

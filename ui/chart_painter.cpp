@@ -1,0 +1,194 @@
+#include "ui/chart_painter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ui/imgui_compat.h"
+#include "ui/widgets.h"
+
+namespace quartet {
+namespace {
+
+/// From the axes' numbers to the screen.
+struct Mapping {
+  const Chart& chart;
+  ScreenRect area;
+
+  float x(double value) const { return area.x + float(axis_position(chart.x, value)) * area.width; }
+  float y(double value) const {
+    return area.bottom() - float(axis_position(chart.y, value)) * area.height;
+  }
+  double position(float sx) const { return double((sx - area.x) / area.width); }
+};
+
+void draw_titles(const Ui& ui, const Chart& chart, const ScreenRect& box) {
+  text_at(ui.small, box.x, box.y, palette::text, chart.title);
+  const float title = text_width(ui.small, chart.title) + ui.px(8.0f);
+  const std::string both = chart.y.label + "  over  " + chart.x.label;
+  const float room = box.width - title;
+  text_left_of(ui.small, box.right(), box.y, palette::dim,
+               fitting_text(ui.small, {both, chart.x.label, ""}, room));
+}
+
+/// Ticks with their numbers; a number that would touch the one before is left out.
+void draw_ticks(const Ui& ui, const Mapping& map, const ScreenRect& box) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ScreenRect& area = map.area;
+  float taken = -1e9f;
+  for (const Tick& tick : map.chart.x.ticks) {
+    const float x = std::round(map.x(tick.value));
+    const float width = text_width(ui.small, tick.label);
+    const float left = std::clamp(x - 0.5f * width, area.x, std::max(area.x, box.right() - width));
+    if (x > area.x + 1 && x < area.right() - 1) {
+      list.AddLine({x, area.y}, {x, area.bottom()}, IM_COL32(255, 255, 255, 14));
+    }
+    if (left >= taken) {
+      text_at(ui.small, left, area.bottom() + ui.px(1.0f), palette::dim, tick.label);
+      taken = left + width + ui.px(6.0f);
+    }
+  }
+  float above = 1e9f;
+  const float line = font_size(ui.small);
+  for (const Tick& tick : map.chart.y.ticks) {
+    const float y = std::round(map.y(tick.value));
+    if (y < area.y || y > area.bottom()) {
+      continue;
+    }
+    if (y < area.bottom() - 1 && y > area.y + 1) {
+      list.AddLine({area.x, y}, {area.right(), y}, IM_COL32(255, 255, 255, 14));
+    }
+    const float top = std::clamp(y - 0.5f * line, area.y - ui.px(2.0f), area.bottom() - line);
+    if (top + line <= above) {
+      text_left_of(ui.small, area.x - ui.px(4.0f), top, palette::dim, tick.label);
+      above = top;
+    }
+  }
+}
+
+void draw_data(const Ui& ui, const Mapping& map) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ScreenRect& area = map.area;
+  const auto clamped = [&](double value) { return std::clamp(map.x(value), area.x, area.right()); };
+  for (const Shade& shade : map.chart.shades) {
+    list.AddRectFilled({clamped(shade.begin), area.y}, {clamped(shade.end), area.bottom()},
+                       screen_color(shade.color));
+  }
+  for (const Bar& bar : map.chart.bars) {
+    const float left = clamped(bar.begin);
+    const float right = clamped(bar.end);
+    const float top = std::max(area.y, map.y(bar.value));
+    // A hairline between bars as soon as they are wide enough to spare it.
+    const float gap = right - left > 4.0f ? 1.0f : 0.0f;
+    if (top < area.bottom() && right > left) {
+      list.AddRectFilled({left, top}, {right - gap, area.bottom()}, screen_color(bar.color));
+    }
+  }
+  std::vector<ImVec2> points;
+  for (const Line& line : map.chart.lines) {
+    points.clear();
+    for (const glm::dvec2& point : line.points) {
+      points.emplace_back(map.x(point.x), map.y(point.y));
+    }
+    list.AddPolyline(points.data(), int(points.size()), screen_color(line.color), 0, ui.px(1.5f));
+  }
+}
+
+void draw_texts(const Ui& ui, const Mapping& map) {
+  const ScreenRect& area = map.area;
+  for (const ChartText& text : map.chart.texts) {
+    const float width = text_width(ui.small, text.text);
+    const float x = area.x + float(text.place.x) * area.width -
+                    (text.align == Align::left     ? 0.0f
+                     : text.align == Align::center ? 0.5f * width
+                                                   : width);
+    const float y = area.bottom() - float(text.place.y) * area.height;
+    ImGui::GetWindowDrawList()->AddRectFilled({x - ui.px(3.0f), y},
+                                              {x + width + ui.px(3.0f), y + font_size(ui.small)},
+                                              with_alpha(palette::well, 0.7f), ui.px(2.0f));
+    text_at(ui.small, x, y, screen_color(text.color), text.text);
+  }
+}
+
+void draw_marker(Ui& ui, const std::string& name, const Mapping& map, const Marker& marker,
+                 bool lit) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ScreenRect& area = map.area;
+  const float x = std::clamp(map.x(marker.value), area.x, area.right());
+  const ImU32 color = screen_color(marker.color);
+  const float head = ui.px(lit ? 6.0f : 5.0f);
+  list.AddLine({x, area.y}, {x, area.bottom()}, color, ui.px(lit ? 2.5f : 1.5f));
+  list.AddTriangleFilled({x - head, area.y}, {x + head, area.y}, {x, area.y + 1.4f * head}, color);
+  ui.mark(fmt::format("{}.marker{}", name, marker.id), {x - head, area.y, 2 * head, area.height});
+}
+
+}  // namespace
+
+ImU32 screen_color(Rgba8 color) {
+  return IM_COL32(color.r, color.g, color.b, color.a);
+}
+
+ScreenRect chart_area(const Ui& ui, const ScreenRect& box) {
+  const float line = font_size(ui.small) + ui.px(3.0f);
+  ScreenRect area = box;
+  area.cut_top(line);
+  area.cut_bottom(line);
+  area.cut_left(ui.px(30.0f));
+  return area;
+}
+
+std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Chart& chart,
+                                      const ScreenRect& box) {
+  const Mapping map{chart, chart_area(ui, box)};
+  const ScreenRect& area = map.area;
+  if (area.width < 8.0f || area.height < 8.0f) {
+    return std::nullopt;
+  }
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::InvisibleButton(name.c_str(), {area.width, area.height});
+  ui.mark(name, area);
+
+  constexpr int none = -1;
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID id = ImGui::GetID(name.c_str());
+  const float mouse = ImGui::GetIO().MousePos.x;
+  const bool hovered = ImGui::IsItemHovered();
+  const Marker* near = marker_near(chart, map.position(mouse), double(ui.px(10.0f) / area.width));
+  if (ImGui::IsItemActivated()) {
+    storage.SetInt(id, near ? near->id : none);
+  }
+  const int held = ImGui::IsItemActive() ? storage.GetInt(id, none) : none;
+
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({area.x, area.y}, {area.right(), area.bottom()}, palette::well);
+  draw_titles(ui, chart, box);
+  draw_ticks(ui, map, box);
+  ImGui::PushClipRect({area.x, area.y}, {area.right(), area.bottom()}, true);
+  draw_data(ui, map);
+  draw_texts(ui, map);
+  for (const Marker& marker : chart.markers) {
+    draw_marker(ui, name, map, marker, marker.id == held || (hovered && near == &marker));
+  }
+  if (hovered && !near && held == none) {
+    list.AddLine({mouse, area.y}, {mouse, area.bottom()}, with_alpha(palette::text, 0.5f));
+  }
+  ImGui::PopClipRect();
+
+  if (held != none) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    return MarkerDrag{held, axis_value(chart.x, std::clamp(map.position(mouse), 0.0, 1.0))};
+  }
+  if (hovered && near) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    tooltip(ui,
+            fmt::format("{}threshold {}\ndrag to move it",
+                        near->label.empty() ? "" : near->label + ": ", format_number(near->value)));
+  } else if (hovered) {
+    tooltip(ui, reading_at(chart, axis_value(chart.x, map.position(mouse))));
+  }
+  return std::nullopt;
+}
+
+}  // namespace quartet

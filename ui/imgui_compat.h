@@ -1,0 +1,60 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+
+namespace quartet {
+
+/// What differs between Dear ImGui 1.86 (Debian 12) and its successors. Input here is only what no
+/// backend brings, as in tests; a window's backend does its own. Keys of ours do not go this way:
+/// see keys.h.
+
+inline void add_mouse_position(float x, float y) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMousePosEvent(x, y);
+#else
+  ImGui::GetIO().MousePos = ImVec2(x, y);
+#endif
+}
+
+inline void add_mouse_button(int button, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMouseButtonEvent(button, down);
+#else
+  ImGui::GetIO().MouseDown[button] = down;
+#endif
+}
+
+inline void add_mouse_wheel(float notches) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMouseWheelEvent(0.0f, notches);
+#else
+  ImGui::GetIO().MouseWheel += notches;
+#endif
+}
+
+inline void add_enter_key(bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddKeyEvent(ImGuiKey_Enter, down);
+#else
+  constexpr int code = 13;  // any number, as long as it is the same in both
+  ImGui::GetIO().KeyMap[ImGuiKey_Enter] = code;
+  ImGui::GetIO().KeysDown[code] = down;
+#endif
+}
+
+inline float font_size(const ImFont* font) {
+#if IMGUI_VERSION_NUM >= 19200
+  return font->LegacySize;
+#else
+  return font->FontSize;
+#endif
+}
+
+inline ImTextureID texture_id(std::uintptr_t handle) {
+  // A pointer up to 1.91, a number later; only one cast does both.
+  return (ImTextureID)(std::intptr_t)handle;  // NOLINT(performance-no-int-to-ptr)
+}
+
+}  // namespace quartet

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "renderer/adaptive/session.h"
+#include "ui/lab_state.h"
+#include "ui/theme.h"
+
+namespace quartet {
+
+/// Makes a picture that of a texture slot and returns a handle that ImGui draws with: all that the
+/// window needs of a graphics library.
+using UploadTexture = std::function<std::uintptr_t(std::size_t slot, const DisplayImage& image)>;
+
+/// What the user asked for, beyond the request, while one frame was drawn.
+struct LabOrders {
+  std::optional<std::string> load_scene;  ///< a built-in name or a file
+  std::optional<ExportForm> save;
+  bool animate = false;  ///< time passes: draw again soon, even without input
+};
+
+/// The line at the bottom that stays until something better is to be said.
+struct Message {
+  enum class Kind { none, notice, error };
+  Kind kind = Kind::none;
+  std::string text;
+};
+
+class PictureCache;
+
+/// What the parts of the window share while one frame is drawn.
+struct LabFrame {
+  Ui& ui;
+  LabState& state;
+  const Snapshot* snapshot;  ///< null before the first one
+  const SessionStatus& status;
+  bool loading;  ///< a scene is being loaded
+  PictureCache& pictures;
+  Message& message;
+  LabOrders& orders;
+  /// Pixel under the mouse; LabState::hovered is that of the frame before, so that all slots mark
+  /// the same one, whichever is drawn first.
+  std::optional<glm::ivec2> hovered = std::nullopt;
+
+  /// The lane's numbers, if there are any yet.
+  const LaneSnapshot* lane(std::size_t index) const {
+    return snapshot && index < snapshot->lanes.size() ? &snapshot->lanes[index] : nullptr;
+  }
+};
+
+}  // namespace quartet

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/adaptive/session.h"
+#include "renderer/image/views.h"
+#include "ui/camera_controls.h"
+#include "ui/pan_zoom.h"
+#include "ui/playback.h"
+
+namespace quartet {
+
+inline constexpr std::size_t lane_count = 4;
+
+enum class LabLayout { columns, grid, large };
+
+/// What one picture slot of a lane shows.
+struct SlotChoice {
+  ViewKind kind = ViewKind::image;
+  std::size_t other = 0;  ///< difference: the lane that is subtracted
+  bool operator==(const SlotChoice&) const = default;
+};
+
+using LaneSlots = std::array<SlotChoice, 2>;
+
+/// Two lanes in the large view.
+struct Comparison {
+  std::size_t lane = 0;   ///< A, the large one
+  std::size_t other = 1;  ///< B
+  bool wipe = false;      ///< A left of the line, B right of it
+  float wipe_at = 0.5f;   ///< in parts of the slot
+};
+
+struct ExportForm {
+  bool open = false;
+  std::string folder = "quartet-export";
+  int lane = -1;  ///< one panel of this lane, or all four
+};
+
+/// All that the window knows between two frames of its own: what the user asks of the renderer, and
+/// how the answer is looked at. Plain data: keys, widgets and tests edit it.
+struct LabState {
+  LabRequest request;
+  CameraControls camera;
+  Playback playback;
+
+  ViewSettings view;
+  std::array<LaneSlots, lane_count> slots;
+  LabLayout layout = LabLayout::columns;
+  Comparison comparison;
+  bool hold_first = false;  ///< lane 1 is shown in the place of all
+  PanZoom pan_zoom;
+  std::optional<glm::ivec2> hovered;  ///< pixel under the mouse
+  std::optional<glm::ivec2> pinned;   ///< pixel that was clicked
+  bool normalize = false;             ///< set the exposure to the picture, at the next frame
+
+  std::string scene = "cornell-checker";  ///< as asked for: a built-in name, or a file
+  std::string path_field;
+  bool help_open = false;
+  float ui_scale = 0.0f;  ///< 0: as the monitor says
+  ExportForm export_form;
+  bool quit = false;
+
+  const TraceScene* trace_scene() const { return request.scene.get(); }
+};
+
+/// The four estimators with a threshold, in the order of the table, and the usual views.
+LabState initial_state();
+
+/// Gives the state a scene that was loaded: its camera, its size, its depth. Integrator, seed,
+/// policies and views stay.
+void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene);
+
+/// Whether both ask for the same.
+bool same_request(const LabRequest& a, const LabRequest& b);
+
+}  // namespace quartet

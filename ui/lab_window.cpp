@@ -1,0 +1,188 @@
+#include "ui/lab_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ui/dialogs.h"
+#include "ui/lane_column.h"
+#include "ui/status_bar.h"
+#include "ui/toolbar.h"
+#include "ui/widgets.h"
+
+namespace quartet {
+namespace {
+
+constexpr float side_gap = 6.0f;
+
+/// What the renderer must keep for what is looked at.
+bool wants_variance(const LabState& state) {
+  return std::ranges::any_of(state.slots, [](const LaneSlots& slots) {
+    return std::ranges::any_of(
+        slots, [](const SlotChoice& choice) { return choice.kind == ViewKind::variance; });
+  });
+}
+
+/// The lanes of the large view, to choose from, above it.
+void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
+  Ui& ui = frame.ui;
+  Comparison& comparison = frame.state.comparison;
+  const float y = box.y + ui.px(3.0f);
+  float x = box.x + ui.px(8.0f);
+  const auto button = [&](const std::string& name, const std::string& text, ImU32 color, bool on) {
+    const float width = text_width(ui.body, text) + ui.px(18.0f);
+    ImGui::SetCursorScreenPos({x, y});
+    ImGui::PushStyleColor(ImGuiCol_Button, on ? with_alpha(color, 0.25f) : 0);
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? color : palette::dim);
+    const bool pressed = ImGui::Button((text + "##" + name).c_str(), {width, 0.0f});
+    ImGui::PopStyleColor(2);
+    ui.mark(name);
+    x += width + ui.px(4.0f);
+    return pressed;
+  };
+  for (std::size_t i = 0; i < frame.state.request.policies.size(); ++i) {
+    const std::string text =
+        std::to_string(i + 1) + "  " +
+        std::string(estimator(frame.state.request.policies[i].estimator).label);
+    if (button("tab" + std::to_string(i), text, lane_color(i), i == comparison.lane)) {
+      comparison.other = comparison.other == i ? comparison.lane : comparison.other;
+      comparison.lane = i;
+    }
+  }
+  x += ui.px(16.0f);
+  const std::string b = "B: lane " + std::to_string(comparison.other + 1);
+  if (button("other", b, lane_color(comparison.other), true)) {
+    do {
+      comparison.other = (comparison.other + 1) % frame.state.request.policies.size();
+    } while (comparison.other == comparison.lane);
+  }
+  tooltip(ui, "The lane to compare with; a click takes the next one");
+  if (button("flip", "flip A, B", palette::text, false)) {
+    std::swap(comparison.lane, comparison.other);
+  }
+  tooltip(ui, "A");
+  if (button("wipe_toggle", "wipe", palette::text, comparison.wipe)) {
+    comparison.wipe = !comparison.wipe;
+  }
+  tooltip(ui, "A line between A and B, to be dragged  (W)");
+}
+
+}  // namespace
+
+LabWindow::LabWindow(LabState state, float scale, UploadTexture upload)
+    : state_(std::move(state)), pictures_(std::move(upload)) {
+  set_theme(ui_, scale);
+  last_ = state_.request;
+}
+
+void LabWindow::scene_loaded(std::shared_ptr<const TraceScene> scene, const std::string& asked) {
+  set_scene(state_, std::move(scene));
+  state_.scene = asked;
+  message_ = {};
+}
+
+/// The exposure at which all but one pixel in a hundred of the chosen lane stay below white.
+void LabWindow::normalize_exposure() {
+  state_.normalize = false;
+  if (!snapshot_ || state_.comparison.lane >= snapshot_->lanes.size()) {
+    return;
+  }
+  const auto& mean = snapshot_->lanes[state_.comparison.lane].mean;
+  std::vector<float> largest(mean[0].size());
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    largest[i] = std::max({mean[0][i], mean[1][i], mean[2][i]});
+  }
+  if (largest.empty()) {
+    return;
+  }
+  const auto place = largest.begin() + std::ptrdiff_t(largest.size() - 1 - largest.size() / 100);
+  std::ranges::nth_element(largest, place);
+  if (*place > 0.0f) {
+    state_.view.exposure = -std::log2(*place);
+  }
+}
+
+/// What follows from the rest of the state, so that no widget and no key needs to think of it.
+void LabWindow::keep_request_consistent() {
+  LabRequest& request = state_.request;
+  request.variance = wants_variance(state_);
+  if (request.scene != last_.scene || !(request.settings == last_.settings)) {
+    state_.playback.forget();
+  }
+  request.frame = state_.playback.wanted();
+  last_ = request;
+}
+
+void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
+  const std::size_t count = state_.request.policies.size();
+  const ColumnWish wish = column_wish(frame);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (state_.layout == LabLayout::large) {
+    ScreenRect box = area;
+    draw_lane_tabs(frame, box.cut_top(ui_.px(30.0f)));
+    draw_lane_column(frame, state_.comparison.lane, lay_out_large(ui_, box, wish));
+    return;
+  }
+  const std::vector<ScreenRect> panels = lane_panels(ui_, area, state_.layout, count);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    draw_lane_column(frame, i,
+                     state_.layout == LabLayout::grid ? lay_out_cell(ui_, panels[i], wish)
+                                                      : lay_out_column(ui_, panels[i], wish));
+    // Only the gaps are painted: the window is cleared to the panels' colour, and fill is what
+    // costs where no graphics card draws.
+    if (panels[i].right() < area.right() - 1) {
+      list.AddRectFilled({panels[i].right(), panels[i].y},
+                         {panels[i].right() + ui_.px(side_gap), panels[i].bottom()}, palette::gap);
+    }
+    if (panels[i].bottom() < area.bottom() - 1) {
+      list.AddRectFilled(
+          {panels[i].x, panels[i].bottom()},
+          {panels[i].right() + ui_.px(side_gap), panels[i].bottom() + ui_.px(side_gap)},
+          palette::gap);
+    }
+  }
+}
+
+LabOrders LabWindow::draw(const LabInput& input) {
+  snapshot_ = input.snapshot;
+  LabOrders orders;
+  ui_.widgets.clear();
+  if (state_.normalize) {
+    normalize_exposure();
+  }
+  const bool current = snapshot_ && snapshot_->scene == state_.request.scene &&
+                       snapshot_->settings == state_.request.settings;
+  orders.animate = state_.playback.update(current ? snapshot_->frame : 0, input.seconds);
+
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::Begin("lab", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                   ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar();
+  ImGui::PushFont(ui_.body);
+  LabFrame frame{ui_,           state_,    snapshot_.get(), input.status,
+                 input.loading, pictures_, message_,        orders};
+  ScreenRect area{0, 0, size.x, size.y};
+  const ScreenRect status = area.cut_bottom(status_bar_height(ui_));
+  const ScreenRect toolbar = area.cut_top(toolbar_height(frame, area.width));
+  draw_toolbar(frame, toolbar);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {0, toolbar.bottom()}, {size.x, toolbar.bottom() + ui_.px(side_gap)}, palette::gap);
+  area.cut_top(ui_.px(side_gap));
+  draw_lanes(frame, area);
+  draw_status_bar(frame, status);
+  draw_help(frame);
+  draw_export_form(frame);
+  ImGui::PopFont();
+  ImGui::End();
+  state_.hovered = frame.hovered;
+  keep_request_consistent();
+  return orders;
+}
+
+}  // namespace quartet

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ui/keys.h"
+#include "ui/lab_frame.h"
+#include "ui/picture_cache.h"
+
+namespace quartet {
+
+/// What a frame of the window is drawn from.
+struct LabInput {
+  std::shared_ptr<const Snapshot> snapshot;  ///< null before the first one
+  SessionStatus status;
+  bool loading = false;  ///< a scene is being loaded
+  double seconds = 0.0;  ///< on any clock
+};
+
+/// The lab window: what it looks like and what it does with mouse and keys. It knows no thread and
+/// no graphics library: the application feeds it snapshots, uploads its pictures, and passes on
+/// what it asks for.
+class LabWindow {
+ public:
+  /// An ImGui context must be current, before its first frame.
+  LabWindow(LabState state, float scale, UploadTexture upload);
+
+  /// Draws all of it, between ImGui's NewFrame and Render.
+  LabOrders draw(const LabInput& input);
+  void key(const KeyEvent& event) { handle_key(state_, event); }
+
+  void scene_loaded(std::shared_ptr<const TraceScene> scene, const std::string& asked);
+  /// The old scene stays.
+  void scene_failed(const std::string& reason) { say(Message::Kind::error, reason); }
+  void say(Message::Kind kind, std::string text) { message_ = {kind, std::move(text)}; }
+
+  LabState& state() { return state_; }
+  const LabState& state() const { return state_; }
+  const Message& message() const { return message_; }
+  const Ui& ui() const { return ui_; }
+
+ private:
+  void draw_lanes(LabFrame& frame, const ScreenRect& area);
+  void normalize_exposure();
+  void keep_request_consistent();
+
+  Ui ui_;
+  LabState state_;
+  PictureCache pictures_;
+  Message message_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  LabRequest last_;  ///< of the frame before
+};
+
+}  // namespace quartet

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/image/pixel_values.h"
+#include "renderer/image/views.h"
+
+namespace quartet {
+
+/// A number in at most about six characters: 0.412, 31.3, 1.2e4.
+std::string short_number(float value);
+std::string three_numbers(glm::vec3 values);
+
+/// What a view says of a pixel, in lines of a number each.
+std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
+                                     std::size_t other, int x, int y);
+
+/// Samples, error and rejected samples of a pixel: three texts, from the longest to the shortest.
+std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values);
+
+}  // namespace quartet

@@ -1,0 +1,107 @@
+#include "ui/status_bar.h"
+
+#include <fmt/format.h>
+
+#include "ui/imgui_compat.h"
+#include "ui/widgets.h"
+
+namespace quartet {
+namespace {
+
+std::string count_text(double count) {
+  return count >= 1e9   ? fmt::format("{:.2f} G", count * 1e-9)
+         : count >= 1e6 ? fmt::format("{:.1f} M", count * 1e-6)
+         : count >= 1e3 ? fmt::format("{:.0f} k", count * 1e-3)
+                        : fmt::format("{:.0f}", count);
+}
+
+std::string bytes_text(double bytes) {
+  constexpr double mib = 1024.0 * 1024.0;
+  return bytes >= 1024.0 * mib ? fmt::format("{:.1f} GB", bytes / (1024.0 * mib))
+                               : fmt::format("{:.0f} MB", bytes / mib);
+}
+
+std::string activity_text(const SessionStatus& status) {
+  using Activity = SessionStatus::Activity;
+  const std::string target = status.frame_target == LabRequest::no_end
+                                 ? std::string("∞")
+                                 : fmt::format("{}", status.frame_target);
+  switch (status.activity) {
+    case Activity::tracing:
+      return fmt::format("tracing after frame {} of {} · {} samples/s", status.frame, target,
+                         count_text(status.samples_per_second));
+    case Activity::replaying:
+      return fmt::format("replaying to frame {}", target);
+    case Activity::idle:
+      break;
+  }
+  return status.frame > 0 ? fmt::format("all lanes at frame {}", status.frame) : "idle";
+}
+
+}  // namespace
+
+std::string status_text(const SessionStatus& status, bool loading) {
+  std::string text = loading ? "loading the scene" : activity_text(status);
+  if (status.stored_samples > 0) {
+    text += fmt::format(" · {} samples stored, {} of {}", count_text(double(status.stored_samples)),
+                        bytes_text(double(status.stored_bytes)),
+                        bytes_text(double(status.memory_budget)));
+  }
+  if (status.partial) {
+    text += " · memory full: replays trace again";
+  }
+  if (status.replay_seconds > 0.0) {
+    text += fmt::format(" · last replay {:.0f} ms", 1000.0 * status.replay_seconds);
+  }
+  return text;
+}
+
+float status_bar_height(const Ui& ui) {
+  return font_size(ui.small) + ui.px(10.0f);
+}
+
+void draw_status_bar(LabFrame& frame, const ScreenRect& box) {
+  Ui& ui = frame.ui;
+  const float y = box.y + 0.5f * (box.height - font_size(ui.small));
+  const float pad = ui.px(10.0f);
+  ImGui::GetWindowDrawList()->AddRectFilled({box.x, box.y}, {box.right(), box.bottom()},
+                                            palette::gap);
+  const std::string hint = "H shows all keys";
+  text_left_of(ui.small, box.right() - pad, y, palette::faint, hint);
+  const float room = box.width - 3 * pad - text_width(ui.small, hint);
+
+  Message message = frame.message;
+  if (!frame.status.error.empty()) {
+    message = {Message::Kind::error, frame.status.error};
+  }
+  if (message.kind == Message::Kind::none) {
+    const std::string text = status_text(frame.status, frame.loading);
+    text_at(ui.small, box.x + pad, y, palette::dim,
+            fitting_text(ui.small,
+                         {text, frame.loading ? "loading the scene" : activity_text(frame.status)},
+                         room));
+    ui.mark("status", box);
+    return;
+  }
+  // The end of a long path says more than its beginning, but the reason comes last of all: what
+  // does not fit stands in the tooltip.
+  const bool error = message.kind == Message::Kind::error;
+  std::string text = message.text;
+  const std::string more = " … (point here)  ×";
+  std::string shown = text + "  ×";
+  while (text_width(ui.small, shown) > room && text.size() > 8) {
+    do {
+      text.pop_back();
+    } while ((static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u);
+    shown = text + more;
+  }
+  ImGui::SetCursorScreenPos({box.x + pad, box.y});
+  if (ImGui::InvisibleButton("message", {text_width(ui.small, shown), box.height})) {
+    frame.message = {};
+  }
+  ui.mark("message");
+  tooltip(ui, message.text + "\n(a click puts this away)");
+  text_at(ui.small, box.x + pad, y, error ? palette::error : palette::good, shown);
+}
+
+}  // namespace quartet

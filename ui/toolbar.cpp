@@ -1,0 +1,390 @@
+#include "ui/toolbar.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "renderer/scene/load_scene.h"
+#include "ui/imgui_compat.h"
+#include "ui/widgets.h"
+
+namespace quartet {
+namespace {
+
+constexpr float row_height = 32.0f;
+constexpr float gap = 8.0f;
+
+/// One control: how wide it is, and what draws it at the cursor.
+struct Item {
+  float width;
+  void (*draw)(LabFrame& frame, float width);
+  bool stretch = false;    ///< takes what is left of its row
+  bool new_group = false;  ///< stands a little apart from the one before
+};
+
+float combo_width(const Ui& ui, const std::string& text) {
+  return text_width(ui.body, text) + ui.px(20.0f) + ImGui::GetFrameHeight();
+}
+
+float label(const Ui& ui, const std::string& text) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  text_at(ui.body, at.x, at.y + 0.5f * (ImGui::GetFrameHeight() - font_size(ui.body)), palette::dim,
+          text);
+  const float width = text_width(ui.body, text) + ui.px(6.0f);
+  ImGui::SetCursorScreenPos({at.x + width, at.y});
+  return width;
+}
+
+std::string scene_label(const LabState& state) {
+  return state.trace_scene() ? state.trace_scene()->scene().name
+                             : std::filesystem::path(state.scene).stem().string();
+}
+
+void draw_scene(LabFrame& frame, float width) {
+  LabState& state = frame.state;
+  Ui& ui = frame.ui;
+  combo(ui, "scene", scene_label(state), width, [&] {
+    for (const std::string& name : builtin_scenes()) {
+      if (combo_row(ui, "scene." + name, name, name == scene_label(state))) {
+        frame.orders.load_scene = name;
+      }
+    }
+    ImGui::Separator();
+    ImGui::TextUnformatted("a Mitsuba 3 file");
+    ImGui::SetNextItemWidth(ui.px(360.0f));
+    const bool entered =
+        ImGui::InputText("##path", &state.path_field, ImGuiInputTextFlags_EnterReturnsTrue);
+    ui.mark("scene.path");
+    ImGui::SameLine();
+    const bool pressed = ImGui::Button("Load");
+    ui.mark("scene.load");
+    if ((entered || pressed) && !state.path_field.empty()) {
+      frame.orders.load_scene = state.path_field;
+      ImGui::CloseCurrentPopup();
+    }
+    ImGui::TextDisabled("or drop it on the window");
+    return false;
+  });
+  std::string tip = "The scene";
+  if (const TraceScene* scene = state.trace_scene()) {
+    tip = scene->scene().path.string();
+    for (const std::string& warning : scene->scene().warnings) {
+      tip += "\n" + warning;
+    }
+  }
+  tooltip(ui, tip);
+}
+
+void draw_integrator(LabFrame& frame, float width) {
+  RenderSettings& settings = frame.state.request.settings;
+  combo(frame.ui, "integrator", std::string(integrator(settings.integrator).id), width, [&] {
+    bool changed = false;
+    for (const Integrator& row : integrators()) {
+      if (combo_row(frame.ui, fmt::format("integrator.{}", row.id), std::string(row.label),
+                    row.key == settings.integrator, std::string(row.description))) {
+        settings.integrator = row.key;
+        changed = true;
+      }
+    }
+    return changed;
+  });
+  tooltip(frame.ui, std::string(integrator(settings.integrator).description));
+}
+
+std::string size_text(int width, int height) {
+  return fmt::format("{} × {}", width, height);
+}
+
+void draw_size(LabFrame& frame, float width) {
+  LabState& state = frame.state;
+  RenderSettings& settings = state.request.settings;
+  combo(frame.ui, "size", size_text(settings.width, settings.height), width, [&] {
+    bool changed = false;
+    const TraceScene* scene = state.trace_scene();
+    const int own_width = scene ? scene->scene().width : settings.width;
+    const int own_height = scene ? scene->scene().height : settings.height;
+    for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
+      const int w = std::max(1, int(std::lround(factor * own_width)));
+      const int h = std::max(1, int(std::lround(factor * own_height)));
+      const std::string text = size_text(w, h) + (factor == 1.0 ? "   the scene's own" : "");
+      if (combo_row(frame.ui, fmt::format("size.{}", w), text,
+                    w == settings.width && h == settings.height)) {
+        settings.width = w;
+        settings.height = h;
+        changed = true;
+      }
+    }
+    ImGui::Separator();
+    std::array<int, 2> typed{settings.width, settings.height};
+    ImGui::SetNextItemWidth(frame.ui.px(150.0f));
+    if (ImGui::InputInt2("pixels", typed.data(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+      // A picture of four lanes this large is some gigabytes.
+      settings.width = std::clamp(typed[0], 1, 8192);
+      settings.height = std::clamp(typed[1], 1, 8192);
+      changed = true;
+    }
+    return changed;
+  });
+  tooltip(frame.ui, "Resolution: other pixels, so all samples are traced anew");
+}
+
+void draw_seed(LabFrame& frame, float width) {
+  const float start = ImGui::GetCursorScreenPos().x;
+  label(frame.ui, "seed");
+  ImGui::SetNextItemWidth(width - (ImGui::GetCursorScreenPos().x - start));
+  std::uint64_t seed = frame.state.request.settings.seed;
+  if (ImGui::DragScalar("##seed", ImGuiDataType_U64, &seed, 0.05f)) {
+    frame.state.request.settings.seed = seed;
+  }
+  frame.ui.mark("seed");
+  tooltip(frame.ui, "Another seed, other random numbers. Drag, or double-click and type.");
+}
+
+void draw_transport(LabFrame& frame, float) {
+  Playback& playback = frame.state.playback;
+  Ui& ui = frame.ui;
+  const auto next = [&] { ImGui::SameLine(0.0f, ui.px(4.0f)); };
+  if (icon_button(ui, "to_start", Icon::to_start)) {
+    playback.seek(1);
+  }
+  tooltip(ui, "First frame");
+  next();
+  if (icon_button(ui, "back", Icon::back, playback.shown() > 1)) {
+    playback.step(-1);
+  }
+  tooltip(ui, "One frame back  ( , )");
+  next();
+  const bool at_end = playback.playing() && playback.shown() >= playback.target();
+  const bool running = playback.playing() && !at_end;
+  if (icon_button(ui, "play", running ? Icon::pause : Icon::play)) {
+    at_end ? playback.play() : playback.toggle();
+  }
+  tooltip(ui, running ? "Pause  (Space)" : "Play  (Space)");
+  next();
+  if (icon_button(ui, "forward", Icon::forward)) {
+    playback.step(1);
+  }
+  tooltip(ui, "One frame forward  ( . )");
+  next();
+  if (icon_button(ui, "restart", Icon::restart)) {
+    playback.restart();
+  }
+  tooltip(ui, "Play again from the first frame  (P)");
+}
+
+float transport_width(const Ui& ui) {
+  return 5 * 1.15f * ImGui::GetFrameHeight() + 4 * ui.px(4.0f);
+}
+
+std::string frame_text(const Playback& playback) {
+  const std::string target = playback.target() == Playback::no_end
+                                 ? std::string("∞")
+                                 : fmt::format("{}", playback.target());
+  return fmt::format("{} / {}", playback.shown(), target);
+}
+
+void draw_frame_slider(LabFrame& frame, float width) {
+  Playback& playback = frame.state.playback;
+  Ui& ui = frame.ui;
+  const float start = ImGui::GetCursorScreenPos().x;
+  label(ui, "frame");
+  const float text =
+      std::max(ui.px(52.0f), text_width(ui.body, frame_text(playback)) + ui.px(8.0f));
+  std::uint32_t last = std::max(playback.furthest(), playback.shown());
+  if (playback.target() != Playback::no_end) {
+    last = std::max(last, playback.target());
+  }
+  last = std::max(last, 2u);
+  float at = float(playback.playing() ? std::max(1u, playback.shown()) : playback.wanted());
+  const float track = width - (ImGui::GetCursorScreenPos().x - start) - text;
+  if (slider(ui, "frame", at, {1.0f, float(last)}, track, palette::text)) {
+    playback.seek(std::uint32_t(std::lround(at)));
+  }
+  tooltip(ui, "Scrub: the lanes replay to this frame");
+  const ImVec2 knob_row = ImGui::GetItemRectMin();
+  text_at(ui.body, ImGui::GetItemRectMax().x + ui.px(6.0f),
+          knob_row.y + 0.5f * (ImGui::GetFrameHeight() - font_size(ui.body)), palette::text,
+          frame_text(playback));
+}
+
+void draw_target(LabFrame& frame, float width) {
+  Playback& playback = frame.state.playback;
+  const float start = ImGui::GetCursorScreenPos().x;
+  label(frame.ui, "to");
+  width -= ImGui::GetCursorScreenPos().x - start;
+  const auto text = [](std::uint32_t target) {
+    return target == Playback::no_end ? std::string("∞") : fmt::format("{}", target);
+  };
+  combo(frame.ui, "target", text(playback.target()), width, [&] {
+    bool changed = false;
+    for (const std::uint32_t target : {15u, 30u, 60u, 120u, Playback::no_end}) {
+      if (combo_row(frame.ui, "target." + text(target), text(target),
+                    target == playback.target())) {
+        playback.set_target(target);
+        changed = true;
+      }
+    }
+    return changed;
+  });
+  tooltip(frame.ui, "Frames to play: 15 as in the report, ∞ to go on until you pause");
+}
+
+void draw_exposure(LabFrame& frame, float width) {
+  float& exposure = frame.state.view.exposure;
+  const float start = ImGui::GetCursorScreenPos().x;
+  label(frame.ui, "exposure");
+  const float field = frame.ui.px(54.0f);
+  width -= ImGui::GetCursorScreenPos().x - start + field;
+  slider(frame.ui, "exposure", exposure, {-8.0f, 8.0f}, width, palette::text);
+  tooltip(frame.ui, "In stops  (E, Shift+E; N sets it to the picture)");
+  ImGui::SameLine(0.0f, 0.0f);
+  number_field(frame.ui, "exposure.number", exposure, -100.0f, 100.0f, "%+.1f EV", field);
+}
+
+void draw_tone_map(LabFrame& frame, float width) {
+  ToneMap& tone_map = frame.state.view.tone_map;
+  combo(frame.ui, "tone_map", std::string(tone_map_row(tone_map).label), width, [&] {
+    bool changed = false;
+    for (const ToneMapRow& row : tone_maps()) {
+      if (combo_row(frame.ui, fmt::format("tone_map.{}", row.id), std::string(row.label),
+                    row.key == tone_map, std::string(row.source))) {
+        tone_map = row.key;
+        changed = true;
+      }
+    }
+    return changed;
+  });
+  tooltip(frame.ui, "Tone map  (T)");
+}
+
+void draw_heat(LabFrame& frame, float width) {
+  HeatRange& heat = frame.state.view.heat;
+  const bool linked = heat == HeatRange::linked;
+  combo(frame.ui, "heat", linked ? "heat: linked" : "heat: report", width, [&] {
+    const bool to_linked =
+        combo_row(frame.ui, "heat.linked", "linked: 0 to the highest of all lanes", linked);
+    const bool to_report = combo_row(frame.ui, "heat.report",
+                                     "report: lowest to highest of each, blue-green-red", !linked);
+    heat = to_linked ? HeatRange::linked : to_report ? HeatRange::report : heat;
+    return to_linked || to_report;
+  });
+  tooltip(frame.ui, "Scale of samples per pixel  (G)");
+}
+
+constexpr std::array layout_names{"4 columns", "2 × 2", "one large"};
+
+void draw_layout(LabFrame& frame, float width) {
+  LabLayout& layout = frame.state.layout;
+  combo(frame.ui, "layout", layout_names[std::size_t(layout)], width, [&] {
+    bool changed = false;
+    for (std::size_t i = 0; i < layout_names.size(); ++i) {
+      if (combo_row(frame.ui, fmt::format("layout.{}", i), layout_names[i],
+                    std::size_t(layout) == i)) {
+        layout = LabLayout(i);
+        changed = true;
+      }
+    }
+    return changed;
+  });
+  tooltip(frame.ui, "Layout  (L)");
+}
+
+void draw_export(LabFrame& frame, float width) {
+  ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(44, 98, 190, 255));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(56, 116, 216, 255));
+  if (ImGui::Button("Export…", {width, 0.0f})) {
+    frame.state.export_form.open = true;
+  }
+  frame.ui.mark("export");
+  ImGui::PopStyleColor(2);
+  tooltip(frame.ui, "Save the figure of all lanes, or one panel  (S)");
+}
+
+void draw_help_button(LabFrame& frame, float width) {
+  if (ImGui::Button("?", {width, 0.0f})) {
+    frame.state.help_open = true;
+  }
+  frame.ui.mark("help");
+  tooltip(frame.ui, "All keys  (H)");
+}
+
+std::vector<Item> items(const LabFrame& frame) {
+  const Ui& ui = frame.ui;
+  const LabState& state = frame.state;
+  const auto labelled = [&](const char* text, float width) {
+    return text_width(ui.body, text) + ui.px(6.0f) + width;
+  };
+  const RenderSettings& settings = state.request.settings;
+  return {
+      {std::max(ui.px(140.0f), combo_width(ui, scene_label(state))), draw_scene},
+      {combo_width(ui, "kajiya"), draw_integrator},
+      {combo_width(ui, size_text(settings.width, settings.height)), draw_size},
+      {labelled("seed", ui.px(44.0f)), draw_seed},
+      {transport_width(ui), draw_transport, false, true},
+      {labelled("frame", ui.px(110.0f)), draw_frame_slider, true},
+      {labelled("to", combo_width(ui, "120")), draw_target},
+      {labelled("exposure", ui.px(146.0f)), draw_exposure, false, true},
+      {combo_width(ui, "Reinhard"), draw_tone_map},
+      {combo_width(ui, "heat: report"), draw_heat},
+      {combo_width(ui, "one large"), draw_layout, false, true},
+      {text_width(ui.body, "Export…") + ui.px(22.0f), draw_export},
+      {ui.px(26.0f), draw_help_button},
+  };
+}
+
+/// Where rows end; the first item of each row.
+std::vector<std::size_t> row_starts(const Ui& ui, const std::vector<Item>& all, float width) {
+  std::vector<std::size_t> starts{0};
+  float used = 0.0f;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const float before = i == starts.back() ? 0.0f : ui.px(all[i].new_group ? 2 * gap : gap);
+    if (used + before + all[i].width > width && i > starts.back()) {
+      starts.push_back(i);
+      used = all[i].width;
+    } else {
+      used += before + all[i].width;
+    }
+  }
+  return starts;
+}
+
+}  // namespace
+
+float toolbar_height(const LabFrame& frame, float width) {
+  const Ui& ui = frame.ui;
+  const auto rows = row_starts(ui, items(frame), width - ui.px(2 * gap)).size();
+  return float(rows) * ui.px(row_height) + ui.px(8.0f);
+}
+
+void draw_toolbar(LabFrame& frame, const ScreenRect& box) {
+  const Ui& ui = frame.ui;
+  const std::vector<Item> all = items(frame);
+  const float width = box.width - ui.px(2 * gap);
+  std::vector<std::size_t> starts = row_starts(ui, all, width);
+  starts.push_back(all.size());
+  float y = box.y + ui.px(4.0f) + 0.5f * (ui.px(row_height) - ImGui::GetFrameHeight());
+  for (std::size_t row = 0; row + 1 < starts.size(); ++row) {
+    float needed = 0.0f;
+    bool stretches = false;
+    for (std::size_t i = starts[row]; i < starts[row + 1]; ++i) {
+      needed += all[i].width + (i > starts[row] ? ui.px(all[i].new_group ? 2 * gap : gap) : 0.0f);
+      stretches |= all[i].stretch;
+    }
+    const float spare = stretches ? std::max(0.0f, width - needed) : 0.0f;
+    float x = box.x + ui.px(gap);
+    for (std::size_t i = starts[row]; i < starts[row + 1]; ++i) {
+      x += i > starts[row] ? ui.px(all[i].new_group ? 2 * gap : gap) : 0.0f;
+      ImGui::SetCursorScreenPos({x, y});
+      const float item_width = all[i].width + (all[i].stretch ? spare : 0.0f);
+      all[i].draw(frame, item_width);
+      x += item_width;
+    }
+    y += ui.px(row_height);
+  }
+}
+
+}  // namespace quartet

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+
+#include "ui/theme.h"
+
+namespace quartet {
+
+/// The window's own widgets. Each is placed with ImGui's cursor, is recorded in the Ui under its
+/// name, edits what it is given, and returns whether it changed it.
+
+struct SliderRange {
+  float low = 0.0f;
+  float high = 1.0f;
+  bool logarithmic = false;
+};
+
+/// A thin line with a knob; a click anywhere on it jumps there.
+bool slider(Ui& ui, const std::string& name, float& value, const SliderRange& range, float width,
+            ImU32 color);
+
+/// The number beside a slider: drag it, or double-click and type. `low` and `high` bound what is
+/// typed, and may be wider than the slider.
+bool number_field(Ui& ui, const std::string& name, float& value, float low, float high,
+                  const char* format, float width);
+
+enum class Icon { to_start, back, pause, play, forward, restart, reset };
+
+bool icon_button(Ui& ui, const std::string& name, Icon icon, bool enabled = true,
+                 float width = 0.0f);
+
+/// A combo box; `rows` draws what opens, with ImGui::Selectable, and returns whether it changed
+/// anything.
+bool combo(Ui& ui, const std::string& name, const std::string& shown, float width,
+           const std::function<bool()>& rows);
+
+/// A row of a combo box; returns whether it was chosen.
+bool combo_row(Ui& ui, const std::string& name, const std::string& label, bool chosen,
+               const std::string& tooltip = "");
+
+/// Of the last item, wrapped, after a moment.
+void tooltip(const Ui& ui, const std::string& text);
+
+/// The first of the texts that is no wider than `width`; the last where none is.
+std::string fitting_text(ImFont* font, std::initializer_list<std::string> texts, float width);
+float text_width(ImFont* font, const std::string& text);
+
+/// Text at a place, without an item.
+void text_at(ImFont* font, float x, float y, ImU32 color, const std::string& text);
+/// The same, ending at x.
+void text_left_of(ImFont* font, float x, float y, ImU32 color, const std::string& text);
+/// Text on a dark strip, over a picture; returns the strip.
+ScreenRect badge(const Ui& ui, float x, float y, ImU32 color, const std::string& text);
+
+}  // namespace quartet
