@@ -24,11 +24,24 @@ struct Mapping {
   double position(float sx) const { return double((sx - area.x) / area.width); }
 };
 
-void draw_titles(const Ui& ui, const Chart& chart, const ScreenRect& box) {
-  text_at(ui.small, box.x, box.y, palette::text, chart.title);
+/// In a low chart texts would cover the data: the one at the right goes up into the title's line.
+bool is_low(const Ui& ui, const ScreenRect& area) {
+  return area.height < ui.px(52.0f);
+}
+
+void draw_titles(const Ui& ui, const Chart& chart, const ScreenRect& box, bool low) {
   const float title = text_width(ui.small, chart.title) + ui.px(8.0f);
-  const std::string both = chart.y.label + "  over  " + chart.x.label;
   const float room = box.width - title;
+  const auto text = std::ranges::find(chart.texts, Align::right, &ChartText::align);
+  if (low && text != chart.texts.end()) {
+    text_left_of(ui.small, box.right(), box.y, screen_color(text->color), text->text);
+    if (text_width(ui.small, text->text) <= room) {
+      text_at(ui.small, box.x, box.y, palette::text, chart.title);
+    }
+    return;
+  }
+  text_at(ui.small, box.x, box.y, palette::text, chart.title);
+  const std::string both = chart.y.label + "  over  " + chart.x.label;
   text_left_of(ui.small, box.right(), box.y, palette::dim,
                fitting_text(ui.small, {both, chart.x.label, ""}, room));
 }
@@ -99,6 +112,9 @@ void draw_data(const Ui& ui, const Mapping& map) {
 void draw_texts(const Ui& ui, const Mapping& map) {
   const ScreenRect& area = map.area;
   for (const ChartText& text : map.chart.texts) {
+    if (is_low(ui, area) && text.align != Align::center) {
+      continue;
+    }
     const float width = text_width(ui.small, text.text);
     const float x = area.x + float(text.place.x) * area.width -
                     (text.align == Align::left     ? 0.0f
@@ -163,7 +179,7 @@ std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Cha
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({area.x, area.y}, {area.right(), area.bottom()}, palette::well);
-  draw_titles(ui, chart, box);
+  draw_titles(ui, chart, box, is_low(ui, area));
   draw_ticks(ui, map, box);
   ImGui::PushClipRect({area.x, area.y}, {area.right(), area.bottom()}, true);
   draw_data(ui, map);

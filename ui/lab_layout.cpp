@@ -69,10 +69,10 @@ ColumnLayout lay_out_cell(const Ui& ui, const ScreenRect& panel, const ColumnWis
   ScreenRect keys = box.cut_top(key);
   layout.keys = {keys.cut_left(half), keys.cut_right(half)};
   box.cut_top(ui.px(gap));
-  const float each = (box.width - 2 * ui.px(gap)) / 3.0f;
+  const float each = (box.width - 4 * ui.px(gap)) / 3.0f;
   for (ScreenRect& chart : layout.charts) {
     chart = rounded(box.cut_left(each));
-    box.cut_left(ui.px(gap));
+    box.cut_left(2 * ui.px(gap));
   }
   return layout;
 }

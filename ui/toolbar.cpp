@@ -16,7 +16,7 @@ namespace quartet {
 namespace {
 
 constexpr float row_height = 32.0f;
-constexpr float gap = 8.0f;
+constexpr float margin = 8.0f;
 
 /// One control: how wide it is, and what draws it at the cursor.
 struct Item {
@@ -236,7 +236,10 @@ void draw_target(LabFrame& frame, float width) {
 void draw_exposure(LabFrame& frame, float width) {
   float& exposure = frame.state.view.exposure;
   const float start = ImGui::GetCursorScreenPos().x;
-  label(frame.ui, "exposure");
+  // "+0.5 EV" says what it is where the room is short.
+  if (width > frame.ui.px(160.0f)) {
+    label(frame.ui, "exposure");
+  }
   const float field = frame.ui.px(54.0f);
   width -= ImGui::GetCursorScreenPos().x - start + field;
   slider(frame.ui, "exposure", exposure, {-8.0f, 8.0f}, width, palette::text);
@@ -261,10 +264,14 @@ void draw_tone_map(LabFrame& frame, float width) {
   tooltip(frame.ui, "Tone map  (T)");
 }
 
+std::string heat_label(HeatRange heat) {
+  return heat == HeatRange::linked ? "heat: linked" : "heat: report";
+}
+
 void draw_heat(LabFrame& frame, float width) {
   HeatRange& heat = frame.state.view.heat;
   const bool linked = heat == HeatRange::linked;
-  combo(frame.ui, "heat", linked ? "heat: linked" : "heat: report", width, [&] {
+  combo(frame.ui, "heat", heat_label(heat), width, [&] {
     const bool to_linked =
         combo_row(frame.ui, "heat.linked", "linked: 0 to the highest of all lanes", linked);
     const bool to_report = combo_row(frame.ui, "heat.report",
@@ -275,7 +282,7 @@ void draw_heat(LabFrame& frame, float width) {
   tooltip(frame.ui, "Scale of samples per pixel  (G)");
 }
 
-constexpr std::array layout_names{"4 columns", "2 × 2", "one large"};
+constexpr std::array layout_names{"columns", "2 × 2", "one large"};
 
 void draw_layout(LabFrame& frame, float width) {
   LabLayout& layout = frame.state.layout;
@@ -312,75 +319,104 @@ void draw_help_button(LabFrame& frame, float width) {
   tooltip(frame.ui, "All keys  (H)");
 }
 
-std::vector<Item> items(const LabFrame& frame) {
+std::vector<Item> items(const LabFrame& frame, bool compact) {
   const Ui& ui = frame.ui;
   const LabState& state = frame.state;
   const auto labelled = [&](const char* text, float width) {
     return text_width(ui.body, text) + ui.px(6.0f) + width;
   };
+  const auto exposure_width = [&] {
+    return compact ? ui.px(100.0f) : labelled("exposure", ui.px(146.0f));
+  };
   const RenderSettings& settings = state.request.settings;
   return {
-      {std::max(ui.px(140.0f), combo_width(ui, scene_label(state))), draw_scene},
+      {std::max(ui.px(compact ? 80.0f : 140.0f), combo_width(ui, scene_label(state))), draw_scene},
       {combo_width(ui, "kajiya"), draw_integrator},
       {combo_width(ui, size_text(settings.width, settings.height)), draw_size},
       {labelled("seed", ui.px(44.0f)), draw_seed},
       {transport_width(ui), draw_transport, false, true},
-      {labelled("frame", ui.px(110.0f)), draw_frame_slider, true},
-      {labelled("to", combo_width(ui, "120")), draw_target},
-      {labelled("exposure", ui.px(146.0f)), draw_exposure, false, true},
-      {combo_width(ui, "Reinhard"), draw_tone_map},
-      {combo_width(ui, "heat: report"), draw_heat},
-      {combo_width(ui, "one large"), draw_layout, false, true},
+      {labelled("frame", ui.px(compact ? 90.0f : 110.0f)), draw_frame_slider, true},
+      {labelled("to", combo_width(ui, compact ? "15" : "120")), draw_target},
+      {exposure_width(), draw_exposure, false, true},
+      {combo_width(ui, compact ? std::string(tone_map_row(state.view.tone_map).label) : "Reinhard"),
+       draw_tone_map},
+      {combo_width(ui, compact ? heat_label(state.view.heat) : "heat: report"), draw_heat},
+      {combo_width(ui, compact ? layout_names[std::size_t(state.layout)] : "one large"),
+       draw_layout, false, true},
       {text_width(ui.body, "Export…") + ui.px(22.0f), draw_export},
       {ui.px(26.0f), draw_help_button},
   };
 }
 
-/// Where rows end; the first item of each row.
-std::vector<std::size_t> row_starts(const Ui& ui, const std::vector<Item>& all, float width) {
+/// The controls, and where rows of them begin. Compact if that saves a row.
+struct Rows {
+  std::vector<Item> items;
   std::vector<std::size_t> starts{0};
+  float gap = 0.0f;
+  float group_gap = 0.0f;
+
+  float gap_before(std::size_t item) const { return items[item].new_group ? group_gap : gap; }
+};
+
+Rows lay_out_rows(const LabFrame& frame, float width, bool compact) {
+  Rows rows;
+  rows.items = items(frame, compact);
+  rows.gap = frame.ui.px(compact ? 4.0f : 8.0f);
+  rows.group_gap = frame.ui.px(compact ? 8.0f : 16.0f);
   float used = 0.0f;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const float before = i == starts.back() ? 0.0f : ui.px(all[i].new_group ? 2 * gap : gap);
-    if (used + before + all[i].width > width && i > starts.back()) {
-      starts.push_back(i);
-      used = all[i].width;
+  for (std::size_t i = 0; i < rows.items.size(); ++i) {
+    const float before = i == rows.starts.back() ? 0.0f : rows.gap_before(i);
+    if (used + before + rows.items[i].width > width && i > rows.starts.back()) {
+      rows.starts.push_back(i);
+      used = rows.items[i].width;
     } else {
-      used += before + all[i].width;
+      used += before + rows.items[i].width;
     }
   }
-  return starts;
+  return rows;
+}
+
+Rows best_rows(const LabFrame& frame, float width) {
+  Rows rows = lay_out_rows(frame, width, false);
+  if (rows.starts.size() > 1) {
+    Rows compact = lay_out_rows(frame, width, true);
+    if (compact.starts.size() < rows.starts.size()) {
+      return compact;
+    }
+  }
+  return rows;
 }
 
 }  // namespace
 
 float toolbar_height(const LabFrame& frame, float width) {
   const Ui& ui = frame.ui;
-  const auto rows = row_starts(ui, items(frame), width - ui.px(2 * gap)).size();
+  const auto rows = best_rows(frame, width - 2 * ui.px(margin)).starts.size();
   return float(rows) * ui.px(row_height) + ui.px(8.0f);
 }
 
 void draw_toolbar(LabFrame& frame, const ScreenRect& box) {
   const Ui& ui = frame.ui;
-  const std::vector<Item> all = items(frame);
-  const float width = box.width - ui.px(2 * gap);
-  std::vector<std::size_t> starts = row_starts(ui, all, width);
-  starts.push_back(all.size());
+  const float width = box.width - 2 * ui.px(margin);
+  Rows rows = best_rows(frame, width);
+  rows.starts.push_back(rows.items.size());
   float y = box.y + ui.px(4.0f) + 0.5f * (ui.px(row_height) - ImGui::GetFrameHeight());
-  for (std::size_t row = 0; row + 1 < starts.size(); ++row) {
+  for (std::size_t row = 0; row + 1 < rows.starts.size(); ++row) {
+    const std::size_t first = rows.starts[row];
+    const std::size_t end = rows.starts[row + 1];
     float needed = 0.0f;
     bool stretches = false;
-    for (std::size_t i = starts[row]; i < starts[row + 1]; ++i) {
-      needed += all[i].width + (i > starts[row] ? ui.px(all[i].new_group ? 2 * gap : gap) : 0.0f);
-      stretches |= all[i].stretch;
+    for (std::size_t i = first; i < end; ++i) {
+      needed += rows.items[i].width + (i > first ? rows.gap_before(i) : 0.0f);
+      stretches |= rows.items[i].stretch;
     }
     const float spare = stretches ? std::max(0.0f, width - needed) : 0.0f;
-    float x = box.x + ui.px(gap);
-    for (std::size_t i = starts[row]; i < starts[row + 1]; ++i) {
-      x += i > starts[row] ? ui.px(all[i].new_group ? 2 * gap : gap) : 0.0f;
+    float x = box.x + ui.px(margin);
+    for (std::size_t i = first; i < end; ++i) {
+      x += i > first ? rows.gap_before(i) : 0.0f;
       ImGui::SetCursorScreenPos({x, y});
-      const float item_width = all[i].width + (all[i].stretch ? spare : 0.0f);
-      all[i].draw(frame, item_width);
+      const float item_width = rows.items[i].width + (rows.items[i].stretch ? spare : 0.0f);
+      rows.items[i].draw(frame, item_width);
       x += item_width;
     }
     y += ui.px(row_height);
