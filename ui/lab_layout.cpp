@@ -110,8 +110,10 @@ std::vector<ScreenRect> lane_panels(const Ui& ui, const ScreenRect& area, LabLay
   const float height = std::floor((area.height - float(rows - 1) * between) / float(rows));
   std::vector<ScreenRect> panels;
   for (std::size_t i = 0; i < count; ++i) {
-    panels.push_back(rounded({area.x + float(i % columns) * (width + between),
-                              area.y + float(i / columns) * (height + between), width, height}));
+    const std::size_t row = i / columns;
+    const std::size_t column = i % columns;
+    panels.push_back(rounded({area.x + float(column) * (width + between),
+                              area.y + float(row) * (height + between), width, height}));
   }
   return panels;
 }

@@ -26,7 +26,7 @@ struct Estimator {
   int channels;
   Thresholds default_thresholds;
   /// Writes the raw error of every pixel, channel by channel (channels × film.size()). Null where
-  /// channels is 0.
+  /// channels is 0. Runs on the threads of the current TBB arena.
   void (*estimate)(const Film& film, std::span<float> error);
 };
 

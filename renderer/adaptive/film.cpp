@@ -1,26 +1,18 @@
 #include "renderer/adaptive/film.h"
 
+#include <algorithm>
 #include <cassert>
-#include <limits>
+#include <numeric>
+
+#include "renderer/trace/running_mean.h"
 
 namespace quartet {
-namespace {
-
-/// False for negative components, infinities and NaN.
-bool acceptable(const glm::vec3& sample) {
-  constexpr float largest = std::numeric_limits<float>::max();
-  return sample.x >= 0.0f && sample.x <= largest && sample.y >= 0.0f && sample.y <= largest &&
-         sample.z >= 0.0f && sample.z <= largest;
-}
-
-}  // namespace
 
 Film::Film(int width, int height, FilmStatistics statistics)
     : width_(width), height_(height), statistics_(statistics) {
   const std::size_t pixels = std::size_t(width) * std::size_t(height);
-  for (std::size_t c = 0; c < 3; ++c) {
-    sums_[c].assign(pixels, 0.0);
-    means_[c].assign(pixels, 0.0f);
+  for (std::vector<float>& plane : means_) {
+    plane.assign(pixels, 0.0f);
   }
   counts_.assign(pixels, 0);
   rejected_.assign(pixels, 0);
@@ -30,30 +22,62 @@ Film::Film(int width, int height, FilmStatistics statistics)
 }
 
 void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
-  glm::dvec3 sum(sums_[0][pixel], sums_[1][pixel], sums_[2][pixel]);
-  std::uint32_t count = counts_[pixel];
+  keep_sums();
+  RunningMean running{sums_[pixel], counts_[pixel]};
   for (const glm::vec3& sample : samples) {
     if (!acceptable(sample)) {
       ++rejected_[pixel];
-      ++total_rejected_;
       continue;
     }
-    if (statistics_.variance && count > 0) {
+    if (statistics_.variance && running.count > 0) {
       // Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products",
       // Technometrics 4(3), 1962, in the form that needs only the sum so far.
-      const double n = double(count);
-      const glm::dvec3 d = n * glm::dvec3(sample) - sum;
+      const double n = double(running.count);
+      const glm::dvec3 d = n * glm::dvec3(sample) - running.sum;
       deviations_[pixel] += d * d / (n * (n + 1.0));
     }
-    sum += glm::dvec3(sample);
-    ++count;
+    running.add(sample);
   }
-  counts_[pixel] = count;
-  const double weight = count > 0 ? 1.0 / double(count) : 0.0;
-  for (int c = 0; c < 3; ++c) {
-    sums_[std::size_t(c)][pixel] = sum[c];
-    means_[std::size_t(c)][pixel] = float(sum[c] * weight);
+  sums_[pixel] = running.sum;
+  put(pixel, running.count, running.mean());
+}
+
+std::uint32_t Film::reject(std::size_t pixel, std::span<const glm::vec3> samples) {
+  const auto bad = std::uint32_t(std::count_if(
+      samples.begin(), samples.end(), [](const glm::vec3& sample) { return !acceptable(sample); }));
+  rejected_[pixel] += bad;
+  return bad;
+}
+
+void Film::keep_sums() {
+  if (sums_.empty()) {
+    sums_.assign(size(), glm::dvec3(0.0));
   }
+}
+
+void Film::restore_sum(std::size_t pixel, std::span<const glm::vec3> samples) {
+  RunningMean running;
+  for (const glm::vec3& sample : samples) {
+    if (acceptable(sample)) {
+      running.add(sample);
+    }
+  }
+  assert(running.count == counts_[pixel]);
+  sums_[pixel] = running.sum;
+}
+
+void Film::clear() {
+  for (std::vector<float>& plane : means_) {
+    std::fill(plane.begin(), plane.end(), 0.0f);
+  }
+  std::fill(counts_.begin(), counts_.end(), 0u);
+  std::fill(rejected_.begin(), rejected_.end(), 0u);
+  std::fill(deviations_.begin(), deviations_.end(), glm::dvec3(0.0));
+  sums_.clear();
+}
+
+std::uint64_t Film::total_rejected() const {
+  return std::accumulate(rejected_.begin(), rejected_.end(), std::uint64_t(0));
 }
 
 glm::dvec3 Film::variance_of_mean(std::size_t pixel) const {
@@ -68,6 +92,11 @@ RadianceImage Film::image() const {
     image.pixels()[i] = {means_[0][i], means_[1][i], means_[2][i]};
   }
   return image;
+}
+
+std::size_t Film::bytes() const {
+  constexpr std::size_t per_pixel = 3 * sizeof(float) + 2 * sizeof(std::uint32_t);
+  return size() * per_pixel + (sums_.size() + deviations_.size()) * sizeof(glm::dvec3);
 }
 
 }  // namespace quartet

@@ -16,8 +16,12 @@ struct FilmStatistics {
   bool operator==(const FilmStatistics&) const = default;
 };
 
-/// The statistics of the samples that each pixel has taken. Planar, because the estimators run over
-/// it in vectors. Sums are in double: exact enough at 10⁷ samples a pixel.
+/// The statistics of the samples that each pixel has taken. What the estimators read is planar,
+/// because they run over it in vectors.
+///
+/// A film gets its means in one of two ways, with the same result to the bit: it adds up samples,
+/// or it is given means that somebody else has added up. Only the first takes memory for sums.
+/// Calls for different pixels may come from different threads, but for the first add().
 class Film {
  public:
   Film(int width, int height, FilmStatistics statistics = {});
@@ -31,13 +35,33 @@ class Film {
   /// negative or not finite does not enter any statistic; it is counted as rejected.
   void add(std::size_t pixel, std::span<const glm::vec3> samples);
 
+  /// Replaces the mean of a pixel by that of `count` samples.
+  void put(std::size_t pixel, std::uint32_t count, const glm::vec3& mean) {
+    counts_[pixel] = count;
+    means_[0][pixel] = mean.x;
+    means_[1][pixel] = mean.y;
+    means_[2][pixel] = mean.z;
+  }
+  /// Counts the samples that were left out of a mean given by put(); returns how many of these.
+  std::uint32_t reject(std::size_t pixel, std::span<const glm::vec3> samples);
+
+  /// Whether samples can be added to what is there.
+  bool has_sums() const { return !sums_.empty(); }
+  /// Makes room for sums; those of pixels that were given means must then be restored.
+  void keep_sums();
+  /// Takes the sum of a pixel from all samples that are in its mean.
+  void restore_sum(std::size_t pixel, std::span<const glm::vec3> samples);
+
+  /// Forgets all samples.
+  void clear();
+
   /// Mean radiance of one channel (0 red, 1 green, 2 blue) of every pixel; 0 before the first
   /// sample.
   std::span<const float> mean(int channel) const { return means_[std::size_t(channel)]; }
   /// Samples in the mean of every pixel.
   std::span<const std::uint32_t> counts() const { return counts_; }
   std::span<const std::uint32_t> rejected() const { return rejected_; }
-  std::uint64_t total_rejected() const { return total_rejected_; }
+  std::uint64_t total_rejected() const;
 
   /// Unbiased estimate of the variance of a pixel's mean, a channel: s²/n; 0 below two samples.
   /// Needs FilmStatistics::variance.
@@ -45,15 +69,16 @@ class Film {
 
   RadianceImage image() const;
 
+  std::size_t bytes() const;  ///< memory in use
+
  private:
   int width_;
   int height_;
   FilmStatistics statistics_;
-  std::array<std::vector<double>, 3> sums_;
   std::array<std::vector<float>, 3> means_;
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t> rejected_;
-  std::uint64_t total_rejected_ = 0;
+  std::vector<glm::dvec3> sums_;
   /// Sums of squared deviations from the mean.
   std::vector<glm::dvec3> deviations_;
 };

@@ -48,12 +48,17 @@ class Lab {
   void rewind_past(std::uint32_t frame);
 
  private:
+  void advance(std::uint32_t frame);
+  bool trace(std::uint32_t frame, std::stop_token stop);
   void forget();
 
   SampleSource source_;
   LabOptions options_;
   SampleStore store_;
   std::vector<Lane> lanes_;
+  // Samples that a frame needs, first and past the last of each pixel.
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> end_;
   tbb::task_arena arena_;
 };
 

@@ -2,66 +2,82 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <cmath>
+#include <atomic>
 
+#include "renderer/parallel.h"
 #include "renderer/table.h"
 
 namespace quartet {
 namespace {
 
-/// Marks pixels with an error above its threshold in any channel; returns how many.
-std::uint64_t mark_exceeding(const SamplingPolicy& policy, std::span<const float> error,
-                             std::vector<std::uint8_t>& exceeds) {
-  const std::size_t pixels = exceeds.size();
-  std::uint8_t* mark = exceeds.data();
-  std::fill_n(mark, pixels, std::uint8_t(0));
-  for (int c = 0; c < estimator(policy.estimator).channels; ++c) {
-    const float threshold = policy.thresholds[std::size_t(c)];
-    const float* plane = error.data() + std::size_t(c) * pixels;
-#pragma omp simd
-    for (std::size_t i = 0; i < pixels; ++i) {
-      mark[i] = std::uint8_t(mark[i] | std::uint8_t(plane[i] > threshold));
-    }
+// Work handed to one thread at a time; a smaller piece costs more to hand out than it gains.
+constexpr std::size_t grain_rows = 32;
+// A part's samples are counted in 32 bits.
+constexpr std::size_t part_pixels = 1 << 14;
+
+/// Sum of a few thousand values, each at most 255, in vectors.
+std::uint32_t sum_of(const std::uint8_t* values, std::size_t count) {
+  std::uint32_t sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (std::size_t i = 0; i < count; ++i) {
+    sum += values[i];
   }
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    count += mark[i];
-  }
-  return count;
+  return sum;
 }
 
-/// votes[i] = marks in the 3 × 3 block around pixel i.
-void count_votes(const std::vector<std::uint8_t>& marks, int width, int height,
-                 std::vector<std::uint8_t>& votes) {
-  const auto w = std::size_t(width);
-  std::vector<std::uint8_t> column(w);
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* here = marks.data() + std::size_t(y) * w;
-    const std::uint8_t* above = y > 0 ? here - w : nullptr;
-    const std::uint8_t* below = y + 1 < height ? here + w : nullptr;
-    std::uint8_t* sum = column.data();
-    std::copy_n(here, w, sum);
-    for (const std::uint8_t* row : {above, below}) {
-      if (row) {
+/// The pixels of each row that vote, kept for as long as rows nearby count them.
+class Marks {
+ public:
+  Marks(const SamplingPolicy& policy, const PlanInput& input)
+      : policy_(policy), input_(input), width_(std::size_t(input.width)), marks_(4 * width_ + 2) {}
+
+  /// Marks the pixels of a row with an error above its threshold in any channel; none of a row
+  /// outside the picture. The two rows marked before are still there.
+  void mark(int y) {
+    std::uint8_t* row = marks(y);
+    std::fill_n(row, width_, std::uint8_t(0));
+    if (y < 0 || y >= input_.height) {
+      return;
+    }
+    const std::size_t pixels = width_ * std::size_t(input_.height);
+    for (int c = 0; c < estimator(policy_.estimator).channels; ++c) {
+      const float threshold = policy_.thresholds[std::size_t(c)];
+      const float* error = input_.error.data() + std::size_t(c) * pixels + std::size_t(y) * width_;
 #pragma omp simd
-        for (std::size_t x = 0; x < w; ++x) {
-          sum[x] = std::uint8_t(sum[x] + row[x]);
-        }
+      for (std::size_t x = 0; x < width_; ++x) {
+        row[x] = std::uint8_t(row[x] | std::uint8_t(error[x] > threshold));
       }
     }
-    std::uint8_t* out = votes.data() + std::size_t(y) * w;
-    std::copy_n(sum, w, out);
-#pragma omp simd
-    for (std::size_t x = 1; x < w; ++x) {
-      out[x] = std::uint8_t(out[x] + sum[x - 1]);
-    }
-#pragma omp simd
-    for (std::size_t x = 0; x < w - 1; ++x) {
-      out[x] = std::uint8_t(out[x] + sum[x + 1]);
-    }
   }
-}
+
+  std::uint32_t count(int y) {
+    return sum_of(marks(y), width_);
+  }
+
+  /// Marks in the three rows around row y, with a column of zeros to the left and to the right: the
+  /// votes of pixel x are the sum of elements x … x + 2.
+  const std::uint8_t* columns(int y) {
+    const std::uint8_t* above = marks(y - 1);
+    const std::uint8_t* here = marks(y);
+    const std::uint8_t* below = marks(y + 1);
+    std::uint8_t* sum = marks_.data() + 3 * width_ + 1;
+#pragma omp simd
+    for (std::size_t x = 0; x < width_; ++x) {
+      sum[x] = std::uint8_t(above[x] + here[x] + below[x]);
+    }
+    return sum - 1;
+  }
+
+ private:
+  std::uint8_t* marks(int y) {
+    return marks_.data() + std::size_t(y + 3) % 3 * width_;
+  }
+
+  const SamplingPolicy& policy_;
+  const PlanInput& input_;
+  std::size_t width_;
+  std::vector<std::uint8_t> marks_;  // three rows and their sum
+};
 
 /// A uniform number in [0, 1) that belongs to (pixel, frame).
 float dither(std::uint32_t pixel, std::uint32_t frame) {
@@ -74,37 +90,46 @@ float dither(std::uint32_t pixel, std::uint32_t frame) {
   return float(x >> 8) * 0x1p-24f;
 }
 
-constexpr int most_votes = 9;
-
 /// The policy of the 2021 report: every pixel above its threshold votes for itself and its up to
 /// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
 void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
-  const std::size_t pixels = plan.wanted.size();
-  std::uint16_t* wanted = plan.wanted.data();
   if (input.frame == 0 || estimator(policy.estimator).channels == 0) {
-    std::fill_n(wanted, pixels, std::uint16_t(1));
+    std::fill(plan.wanted.begin(), plan.wanted.end(), std::uint16_t(1));
     return;
   }
-  std::vector<std::uint8_t> marks(pixels);
-  std::vector<std::uint8_t> votes(pixels);
-  plan.refined = mark_exceeding(policy, input.error, marks);
-  count_votes(marks, input.width, input.height, votes);
+  const auto width = std::size_t(input.width);
   const float multiplier = policy.allocation.multiplier;
-  if (policy.allocation.stochastic_rounding) {
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const float extra =
-          std::floor(multiplier * float(votes[i]) + dither(std::uint32_t(i), input.frame));
-      wanted[i] = std::uint16_t(1.0f + extra);
+  std::atomic<std::uint64_t> refined = 0;
+  parallel_for(std::size_t(input.height), grain_rows, [&](std::size_t begin, std::size_t end) {
+    Marks marks(policy, input);
+    marks.mark(int(begin) - 1);
+    marks.mark(int(begin));
+    std::uint64_t marked = 0;
+    for (std::size_t y = begin; y < end; ++y) {
+      marks.mark(int(y) + 1);
+      marked += marks.count(int(y));
+      const std::uint8_t* columns = marks.columns(int(y));
+      std::uint16_t* wanted = plan.wanted.data() + y * width;
+      // Through int, for which there are vectors; it rounds down because no term is negative.
+      if (policy.allocation.stochastic_rounding) {
+        const auto first = std::uint32_t(y * width);
+#pragma omp simd
+        for (std::size_t x = 0; x < width; ++x) {
+          const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+          const float offset = dither(first + std::uint32_t(x), input.frame);
+          wanted[x] = std::uint16_t(1 + int(multiplier * float(votes) + offset));
+        }
+      } else {
+#pragma omp simd
+        for (std::size_t x = 0; x < width; ++x) {
+          const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+          wanted[x] = std::uint16_t(1 + int(multiplier * float(votes)));
+        }
+      }
     }
-    return;
-  }
-  std::array<std::uint16_t, most_votes + 1> samples;
-  for (int v = 0; v <= most_votes; ++v) {
-    samples[std::size_t(v)] = std::uint16_t(1.0f + std::floor(multiplier * float(v)));
-  }
-  for (std::size_t i = 0; i < pixels; ++i) {
-    wanted[i] = samples[votes[i]];
-  }
+    refined += marked;
+  });
+  plan.refined = refined;
 }
 
 constexpr std::array table{
@@ -138,14 +163,25 @@ void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
   plan.total = 0;
   plan.refined = 0;
   allocation(policy.allocation.kind).plan(policy, input, plan);
-  std::uint16_t* wanted = plan.wanted.data();
-  std::uint64_t total = 0;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::uint32_t room =
-        input.taken[i] < policy.max_spp ? policy.max_spp - input.taken[i] : 0;
-    wanted[i] = std::uint16_t(std::min<std::uint32_t>(wanted[i], room));
-    total += wanted[i];
-  }
+  std::atomic<std::uint64_t> total = 0;
+  parallel_for((pixels + part_pixels - 1) / part_pixels, 1,
+               [&](std::size_t first, std::size_t last) {
+                 const std::uint32_t* taken = input.taken.data();
+                 std::uint16_t* wanted = plan.wanted.data();
+                 const std::uint32_t most = policy.max_spp;
+                 for (std::size_t part = first; part < last; ++part) {
+                   const std::size_t end = std::min((part + 1) * part_pixels, pixels);
+                   std::uint32_t sum = 0;
+#pragma omp simd reduction(+ : sum)
+                   for (std::size_t i = part * part_pixels; i < end; ++i) {
+                     const std::uint32_t room = std::max(most, taken[i]) - taken[i];
+                     const std::uint32_t samples = std::min<std::uint32_t>(wanted[i], room);
+                     wanted[i] = std::uint16_t(samples);
+                     sum += samples;
+                   }
+                   total += sum;
+                 }
+               });
   plan.total = total;
 }
 

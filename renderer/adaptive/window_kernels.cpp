@@ -9,12 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/parallel.h"
+
 namespace quartet {
 namespace {
 
 // Below this mean luminance a reciprocal would leave the range of float; the error, which is
 // smaller still, is taken as 0.
 constexpr float darkest = 1e-37f;
+
+// Rows handed to one thread at a time. Each piece reads the row above and the row below it too.
+constexpr std::size_t grain_rows = 16;
 
 /// Lowest and highest of each value and its left and right neighbours.
 void row_extremes(const float* row, int width, float* low, float* high) {
@@ -32,7 +37,9 @@ void row_extremes(const float* row, int width, float* low, float* high) {
   }
 }
 
-void contrast_plane(std::span<const float> values, int width, int height, float* error) {
+/// Rows [begin, end) of one channel.
+void contrast_rows(std::span<const float> values, int width, int height, int begin, int end,
+                   float* error) {
   // Extremes along the row of the last three rows, so that each row is read once.
   std::vector<float> buffer(std::size_t(width) * 6);
   float* low[3];
@@ -45,8 +52,9 @@ void contrast_plane(std::span<const float> values, int width, int height, float*
     row_extremes(values.data() + std::size_t(y) * std::size_t(width), width, low[y % 3],
                  high[y % 3]);
   };
-  load(0);
-  for (int y = 0; y < height; ++y) {
+  load(std::max(begin - 1, 0));
+  load(begin);
+  for (int y = begin; y < end; ++y) {
     if (y + 1 < height) {
       load(y + 1);
     }
@@ -147,9 +155,10 @@ struct KullbackLeibler {
     const float x = luminance * window.reciprocal;
     const float d = window.relative(luminance);
     const auto bits = std::bit_cast<std::int32_t>(x);
-    const std::int32_t e = (bits - 0x3f3504f3) >> 23;
-    const float power = std::bit_cast<float>((e + 127) << 23);
-    const float f = e == 0 ? d : std::bit_cast<float>(bits - (e << 23)) - 1.0f;
+    // e where a float keeps its exponent, so that no shift is needed.
+    const std::int32_t e = (bits - 0x3f3504f3) & ~0x7fffff;
+    const float power = std::bit_cast<float>(e + 0x3f800000);
+    const float f = e == 0 ? d : std::bit_cast<float>(bits - e) - 1.0f;
     // φ(f)/f² interpolated at Chebyshev nodes: relative error 2.2e-6, half of it after the root.
     float p = -0.0202037778f;
     p = p * f + 0.0357609953f;
@@ -157,7 +166,7 @@ struct KullbackLeibler {
     p = p * f + 0.0832497204f;
     p = p * f - 0.1666533782f;
     p = p * f + 0.5000004711f;
-    return (float(e) * 0.69314718f) * x + (power * (f * f * p) + (1.0f - power));
+    return (float(e) * (0.69314718f * 0x1p-23f)) * x + (power * (f * f * p) + (1.0f - power));
   }
   static float sum_to_divergence(const WindowMean&, float sum) { return sum; }
 };
@@ -217,16 +226,18 @@ void row_errors(const std::array<LuminanceRow, 3>& ring, int first, int centre, 
   row_errors<Divergence>(rows, width, error);
 }
 
+/// Rows [begin, end).
 template <class Divergence>
-void divergence_plane(const Film& film, std::span<float> error) {
-  assert(error.size() == film.size());
+void divergence_rows(const Film& film, int begin, int end, std::span<float> error) {
   const int width = film.width();
   const int height = film.height();
   std::array<LuminanceRow, 3> ring;
-  ring[0].load(film, 0, Divergence::with_root);
-  for (int y = 0; y < height; ++y) {
+  const auto load = [&](int y) { ring[std::size_t(y) % 3].load(film, y, Divergence::with_root); };
+  load(std::max(begin - 1, 0));
+  load(begin);
+  for (int y = begin; y < end; ++y) {
     if (y + 1 < height) {
-      ring[std::size_t(y + 1) % 3].load(film, y + 1, Divergence::with_root);
+      load(y + 1);
     }
     const int first = std::max(y - 1, 0);
     float* out = error.data() + std::size_t(y) * std::size_t(width);
@@ -243,14 +254,24 @@ void divergence_plane(const Film& film, std::span<float> error) {
   }
 }
 
+template <class Divergence>
+void divergence_plane(const Film& film, std::span<float> error) {
+  assert(error.size() == film.size());
+  parallel_for(std::size_t(film.height()), grain_rows, [&](std::size_t begin, std::size_t end) {
+    divergence_rows<Divergence>(film, int(begin), int(end), error);
+  });
+}
+
 }  // namespace
 
 void estimate_contrast(const Film& film, std::span<float> error) {
   assert(error.size() == 3 * film.size());
-  for (int c = 0; c < 3; ++c) {
-    contrast_plane(film.mean(c), film.width(), film.height(),
-                   error.data() + std::size_t(c) * film.size());
-  }
+  parallel_for(std::size_t(film.height()), grain_rows, [&](std::size_t begin, std::size_t end) {
+    for (int c = 0; c < 3; ++c) {
+      contrast_rows(film.mean(c), film.width(), film.height(), int(begin), int(end),
+                    error.data() + std::size_t(c) * film.size());
+    }
+  });
 }
 
 void estimate_kl(const Film& film, std::span<float> error) {

@@ -1,13 +1,11 @@
 #include "renderer/trace/sample_store.h"
 
-#include <sys/mman.h>
 #include <x86intrin.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <chrono>
-#include <new>
-#include <numeric>
 #include <utility>
 
 #include "renderer/parallel.h"
@@ -17,86 +15,110 @@ namespace {
 
 // Below this many paths a task costs more to hand out than it gains.
 constexpr std::size_t grain_pixels = 64;
+// The same for looking at counts.
+constexpr std::size_t grain_checks = 1 << 15;
 
 }  // namespace
 
-glm::vec3* SampleStore::Planes::allocate() {
-  if (!free_.empty()) {
-    glm::vec3* plane = free_.back();
-    free_.pop_back();
-    return plane;
-  }
-  if (used_ == slab_planes) {
-    void* memory = std::aligned_alloc(slab_bytes, slab_bytes);
-    if (!memory) {
-      throw std::bad_alloc();
-    }
-    madvise(memory, slab_bytes, MADV_HUGEPAGE);  // a wish; without it all works, slower
-    slabs_.emplace_back(static_cast<glm::vec3*>(memory));
-    used_ = 0;
-  }
-  return slabs_.back().get() + plane_samples * used_++;
-}
-
-SampleStore::SampleStore(int width, int height, std::size_t memory_budget)
+SampleStore::SampleStore(int width, int height, std::size_t memory_budget, bool keep_means)
     : width_(width),
       height_(height),
       memory_budget_(memory_budget),
       places_(std::size_t(width) * std::size_t(height)),
-      ranges_(places_.size()),
+      firsts_(places_.size(), 0),
+      ends_(places_.size(), 0),
+      prefixes_(keep_means ? places_.size() : 0),
       seconds_per_sample_(places_.size(), 0.0f),
-      timed_(places_.size(), 0) {
+      timed_(places_.size(), 0),
+      has_means_(keep_means) {
+  Tile empty;
+  if (keep_means) {
+    // Of no samples: the same for all tiles.
+    empty.means = {mean_planes_.allocate()};
+    std::fill_n(empty.means.front(), PlanePool::plane_values, glm::vec3(0.0f));
+  }
   const auto columns = std::uint32_t(width);
   const auto rows = std::uint32_t(height);
-  for (std::uint32_t top = 0; top < rows; top += tile_size) {
-    for (std::uint32_t left = 0; left < columns; left += tile_size) {
-      for (std::uint32_t y = top; y < std::min(top + tile_size, rows); ++y) {
-        for (std::uint32_t x = left; x < std::min(left + tile_size, columns); ++x) {
+  constexpr auto side = std::uint32_t(tile_size);
+  for (std::uint32_t top = 0; top < rows; top += side) {
+    for (std::uint32_t left = 0; left < columns; left += side) {
+      for (std::uint32_t y = top; y < std::min(top + side, rows); ++y) {
+        for (std::uint32_t x = left; x < std::min(left + side, columns); ++x) {
           const std::uint32_t pixel = y * columns + x;
-          places_[pixel] = {std::uint32_t(tiles_.size()), (y - top) * tile_size + (x - left)};
+          places_[pixel] = {std::uint32_t(tiles_.size()), (y - top) * side + (x - left)};
           pixels_.push_back(pixel);
         }
       }
-      tiles_.emplace_back();
+      tiles_.push_back(empty);
     }
   }
 }
 
+bool SampleStore::holds(std::span<const std::uint32_t> taken,
+                        std::span<const std::uint16_t> wanted) const {
+  assert(taken.size() == ends_.size() && wanted.size() == ends_.size());
+  std::atomic<bool> all = true;
+  parallel_for(ends_.size(), grain_checks, [&](std::size_t begin, std::size_t end) {
+    const std::uint32_t* from = taken.data();
+    const std::uint16_t* count = wanted.data();
+    const std::uint32_t* first = firsts_.data();
+    const std::uint32_t* last = ends_.data();
+    std::uint32_t missing = 0;
+#pragma omp simd reduction(| : missing)
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t lacks =
+          std::uint32_t(from[i] < first[i]) | std::uint32_t(from[i] + count[i] > last[i]);
+      missing |= count[i] > 0 ? lacks : 0u;
+    }
+    if (missing) {
+      all = false;
+    }
+  });
+  return all;
+}
+
 /// Gives the tile planes for samples [begin, end).
 void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end) {
-  if (tile.planes.empty()) {
-    tile.base = begin;
+  if (tile.samples.empty()) {
+    tile.base = has_means_ ? 0 : begin;
   }
   if (begin < tile.base) {
-    tile.planes.insert(tile.planes.begin(), tile.base - begin, nullptr);
+    tile.samples.insert(tile.samples.begin(), tile.base - begin, nullptr);
     tile.base = begin;
   }
-  if (end - tile.base > tile.planes.size()) {
-    tile.planes.resize(end - tile.base, nullptr);
+  if (end - tile.base > tile.samples.size()) {
+    tile.samples.resize(end - tile.base, nullptr);
   }
   for (std::uint32_t i = begin; i < end; ++i) {
-    glm::vec3*& plane = tile.planes[i - tile.base];
+    glm::vec3*& plane = tile.samples[i - tile.base];
     if (!plane) {
-      plane = planes_.allocate();
+      plane = sample_planes_.allocate();
+    }
+  }
+  if (has_means_) {
+    // Pixel by pixel a complete store has no gaps, so neither have its tiles.
+    while (tile.means.size() <= end) {
+      tile.means.push_back(mean_planes_.allocate());
     }
   }
 }
 
 void SampleStore::release_planes_below(Tile& tile, std::uint32_t index) {
   const std::size_t count =
-      index > tile.base ? std::min<std::size_t>(index - tile.base, tile.planes.size()) : 0;
+      index > tile.base ? std::min<std::size_t>(index - tile.base, tile.samples.size()) : 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (tile.planes[i]) {
-      planes_.release(tile.planes[i]);
+    if (tile.samples[i]) {
+      sample_planes_.release(tile.samples[i]);
     }
   }
-  tile.planes.erase(tile.planes.begin(), tile.planes.begin() + std::ptrdiff_t(count));
+  tile.samples.erase(tile.samples.begin(), tile.samples.begin() + std::ptrdiff_t(count));
   tile.base += std::uint32_t(count);
 }
 
 void SampleStore::clear(std::size_t pixel) {
-  stored_ -= ranges_[pixel].end - ranges_[pixel].first;
-  ranges_[pixel] = {};
+  stored_ -= ends_[pixel] - firsts_[pixel];
+  firsts_[pixel] = 0;
+  ends_[pixel] = 0;
 }
 
 std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32_t> begin,
@@ -106,14 +128,15 @@ std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32
     if (begin[pixel] >= end[pixel]) {
       continue;
     }
-    Range& range = ranges_[pixel];
-    if (begin[pixel] < range.first || begin[pixel] > range.end) {
+    if (begin[pixel] < firsts_[pixel] || begin[pixel] > ends_[pixel]) {
+      // A gap, which a store with means never has: no lane is ahead of what was traced for it.
+      assert(!has_means_);
       clear(pixel);
-      range = {begin[pixel], begin[pixel]};
+      firsts_[pixel] = ends_[pixel] = begin[pixel];
     }
-    if (end[pixel] > range.end) {
-      make_planes(tiles_[places_[pixel].tile], range.end, end[pixel]);
-      jobs.push_back({pixel, end[pixel] - range.end});
+    if (end[pixel] > ends_[pixel]) {
+      make_planes(tiles_[places_[pixel].tile], ends_[pixel], end[pixel]);
+      jobs.push_back({.pixel = pixel, .count = end[pixel] - ends_[pixel]});
     }
   }
   return jobs;
@@ -121,71 +144,115 @@ std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32
 
 bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
                           const SampleSource& source, std::stop_token stop) {
-  assert(begin.size() == ranges_.size() && end.size() == ranges_.size());
-  const std::vector<Job> jobs = plan_pass(begin, end);
+  assert(begin.size() == ends_.size() && end.size() == ends_.size());
+  std::vector<Job> jobs = plan_pass(begin, end);
   if (jobs.empty()) {
     return true;
   }
-  std::vector<std::uint64_t> ticks(jobs.size(), 0);
   const auto start = std::chrono::steady_clock::now();
   parallel_for(jobs.size(), grain_pixels, [&](std::size_t first, std::size_t last) {
     std::vector<glm::vec3> radiance;
     std::uint64_t before = __rdtsc();
     for (std::size_t i = first; i != last && !stop.stop_requested(); ++i) {
-      const auto [pixel, count] = jobs[i];
-      const Place place = places_[pixel];
+      Job& job = jobs[i];
+      const Place place = places_[job.pixel];
       const Tile& tile = tiles_[place.tile];
-      const std::uint32_t index = ranges_[pixel].end;
-      radiance.resize(count);
-      source(int(pixel) % width_, int(pixel) / width_, index, radiance);
-      for (std::uint32_t k = 0; k < count; ++k) {
-        tile.planes[index + k - tile.base][place.offset] = radiance[k];
+      const std::uint32_t index = ends_[job.pixel];
+      radiance.resize(job.count);
+      source(int(job.pixel) % width_, int(job.pixel) / width_, index, radiance);
+      for (std::uint32_t k = 0; k < job.count; ++k) {
+        tile.samples[index + k - tile.base][place.offset] = radiance[k];
+        job.rejected |= !acceptable(radiance[k]);
       }
+      if (has_means_) {
+        append_means(job.pixel, radiance);
+      }
+      job.traced = true;
       const std::uint64_t after = __rdtsc();
-      ticks[i] = after - before;
+      job.ticks = after - before;
       before = after;
     }
   });
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  finish_pass(jobs, ticks, wall);
+  finish_pass(jobs, wall);
   return !stop.stop_requested();
+}
+
+/// Writes the means up to each of the samples that come next.
+void SampleStore::append_means(std::uint32_t pixel, std::span<const glm::vec3> samples) {
+  const Place place = places_[pixel];
+  const Tile& tile = tiles_[place.tile];
+  Prefix& prefix = prefixes_[pixel];
+  const std::uint32_t begin = ends_[pixel];
+  RunningMean running{prefix.sum, prefix.count};
+  if (prefix.end != begin) {
+    // An earlier pass threw after it had come here: what it made does not count.
+    running = {};
+    for (std::uint32_t i = 0; i < begin; ++i) {
+      const glm::vec3& sample = tile.samples[i][place.offset];
+      if (acceptable(sample)) {
+        running.add(sample);
+      }
+    }
+  }
+  for (std::uint32_t k = 0; k < samples.size(); ++k) {
+    if (acceptable(samples[k])) {
+      running.add(samples[k]);
+    }
+    tile.means[begin + k + 1][place.offset] = running.mean();
+  }
+  prefix = {running.sum, running.count, begin + std::uint32_t(samples.size())};
 }
 
 /// Counts what was traced and shares the pass's wall-clock time among its pixels by the ticks that
 /// each took, so that the shares add up to what a user waits.
-void SampleStore::finish_pass(std::span<const Job> jobs, std::span<const std::uint64_t> ticks,
-                              double wall) {
-  const std::uint64_t total = std::accumulate(ticks.begin(), ticks.end(), std::uint64_t(0));
+void SampleStore::finish_pass(std::span<const Job> jobs, double wall) {
+  std::uint64_t total = 0;
+  for (const Job& job : jobs) {
+    total += job.ticks;
+  }
   const double seconds_per_tick = wall / double(std::max<std::uint64_t>(total, 1));
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    if (ticks[i] == 0) {
+  for (const Job& job : jobs) {
+    if (!job.traced) {
       continue;  // the pass was stopped before this pixel
     }
-    const auto [pixel, count] = jobs[i];
-    ranges_[pixel].end += count;
-    stored_ += count;
-    traced_ += count;
-    timed_[pixel] += count;
-    const double seconds = double(ticks[i]) * seconds_per_tick;
+    const std::uint32_t pixel = job.pixel;
+    ends_[pixel] += job.count;
+    stored_ += job.count;
+    traced_ += job.count;
+    timed_[pixel] += job.count;
+    const double seconds = double(job.ticks) * seconds_per_tick;
     seconds_per_sample_[pixel] +=
-        float((seconds - double(count) * double(seconds_per_sample_[pixel])) / timed_[pixel]);
+        float((seconds - double(job.count) * double(seconds_per_sample_[pixel])) / timed_[pixel]);
+    if (job.rejected) {
+      tiles_[places_[pixel].tile].rejected = true;
+    }
   }
   seconds_ += wall;
 }
 
+void SampleStore::forget_means() {
+  has_means_ = false;
+  for (Tile& tile : tiles_) {
+    tile.means = std::vector<glm::vec3*>();
+  }
+  mean_planes_ = PlanePool();
+  prefixes_ = std::vector<Prefix>();
+}
+
 void SampleStore::trim(std::span<const std::uint32_t> used) {
-  assert(used.size() == ranges_.size());
+  assert(used.size() == ends_.size());
   if (bytes() <= memory_budget_) {
     return;
   }
+  forget_means();
   partial_ = true;
   std::vector<std::uint32_t> needed(tiles_.size(), UINT32_MAX);
-  for (std::size_t pixel = 0; pixel < ranges_.size(); ++pixel) {
-    Range& range = ranges_[pixel];
-    const std::uint32_t first = std::clamp(used[pixel], range.first, range.end);
-    stored_ -= first - range.first;
-    range.first = first;
+  for (std::size_t pixel = 0; pixel < ends_.size(); ++pixel) {
+    const std::uint32_t first = std::clamp(used[pixel], firsts_[pixel], ends_[pixel]);
+    stored_ -= first - firsts_[pixel];
+    firsts_[pixel] = first;
     needed[places_[pixel].tile] = std::min(needed[places_[pixel].tile], first);
   }
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
@@ -193,24 +260,24 @@ void SampleStore::trim(std::span<const std::uint32_t> used) {
   }
   // Lanes so far apart that what lies between them fills the budget: trace it again when wanted.
   if (bytes() > memory_budget_) {
-    for (std::size_t pixel = 0; pixel < ranges_.size(); ++pixel) {
+    for (std::size_t pixel = 0; pixel < ends_.size(); ++pixel) {
       clear(pixel);
     }
     for (Tile& tile : tiles_) {
       tile = {};
     }
-    planes_ = {};
+    sample_planes_ = PlanePool();
   }
 }
 
 std::size_t SampleStore::bytes() const {
   std::size_t pointers = 0;
   for (const Tile& tile : tiles_) {
-    pointers += tile.planes.capacity() * sizeof(glm::vec3*);
+    pointers += (tile.samples.capacity() + tile.means.capacity()) * sizeof(glm::vec3*);
   }
-  constexpr std::size_t per_pixel =
-      sizeof(Place) + sizeof(Range) + sizeof(float) + 2 * sizeof(std::uint32_t);
-  return planes_.bytes() + pointers + tiles_.size() * sizeof(Tile) + ranges_.size() * per_pixel;
+  constexpr std::size_t per_pixel = sizeof(Place) + sizeof(float) + 4 * sizeof(std::uint32_t);
+  return sample_planes_.bytes() + mean_planes_.bytes() + pointers + tiles_.size() * sizeof(Tile) +
+         ends_.size() * per_pixel + prefixes_.size() * sizeof(Prefix);
 }
 
 }  // namespace quartet

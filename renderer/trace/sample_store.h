@@ -1,13 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <glm/glm.hpp>
-#include <memory>
 #include <span>
 #include <stop_token>
 #include <vector>
+
+#include "renderer/trace/plane_pool.h"
+#include "renderer/trace/running_mean.h"
 
 namespace quartet {
 
@@ -20,13 +22,20 @@ using SampleSource =
 ///
 /// A sample can always be made again, so that the store is a cache: over its memory budget it
 /// forgets what every lane has already used, and from then on a replay traces again.
+///
+/// The mean of a pixel's first n samples is the same for every lane and every replay. So the store
+/// can keep it beside sample n: a replay that wants nothing but means looks one value up where it
+/// would add many.
 class SampleStore {
  public:
-  /// `memory_budget` in bytes.
-  SampleStore(int width, int height, std::size_t memory_budget);
+  /// `memory_budget` in bytes. With `keep_means`, memory a sample doubles.
+  SampleStore(int width, int height, std::size_t memory_budget, bool keep_means = false);
 
   int width() const { return width_; }
   int height() const { return height_; }
+
+  /// Whether samples taken[p] … taken[p] + wanted[p] − 1 of each pixel p are available.
+  bool holds(std::span<const std::uint32_t> taken, std::span<const std::uint16_t> wanted) const;
 
   /// Makes samples [begin[p], end[p]) of each pixel p available; nothing where begin ≥ end. Traces
   /// what is missing on the threads of the current TBB arena. Returns false if `stop` ended it
@@ -39,7 +48,7 @@ class SampleStore {
     const Place place = places_[pixel];
     const Tile& tile = tiles_[place.tile];
     for (std::uint32_t i = 0; i < out.size(); ++i) {
-      out[i] = tile.planes[begin + i - tile.base][place.offset];
+      out[i] = tile.samples[begin + i - tile.base][place.offset];
     }
   }
 
@@ -48,14 +57,47 @@ class SampleStore {
     const Place place = places_[pixel];
     const Tile& tile = tiles_[place.tile];
     for (std::uint32_t i = 0; i < count; ++i) {
-      __builtin_prefetch(tile.planes[begin + i - tile.base] + place.offset);
+      __builtin_prefetch(tile.samples[begin + i - tile.base] + place.offset);
     }
   }
 
   /// Every pixel once, tile by tile: the order in which samples lie in memory.
   std::span<const std::uint32_t> pixels() const { return pixels_; }
 
-  /// Forgets samples below used[p] of each pixel if the store is over its budget.
+  /// Whether the mean of the first n samples of a pixel can be looked up for each stored n.
+  bool has_means() const { return has_means_; }
+
+  static constexpr int tile_size = int(PlanePool::tile_size);
+
+  /// The means of one tile.
+  struct TileMeans {
+    int left, top, columns, rows;  // pixels of the picture
+    const glm::vec3* const* planes;
+    /// Whether any sample of the tile was rejected, so that a mean may be of fewer than n.
+    bool rejected;
+
+    /// The means of n samples: element tile_size · row + column is that of a pixel. Of a pixel
+    /// without samples, black.
+    const glm::vec3* of(std::uint32_t n) const { return planes[n]; }
+  };
+  int tile_columns() const { return (width_ + tile_size - 1) / tile_size; }
+  int tile_rows() const { return (height_ + tile_size - 1) / tile_size; }
+  TileMeans tile_means(int column, int row) const {
+    const Tile& tile = tiles_[std::size_t(row) * std::size_t(tile_columns()) + std::size_t(column)];
+    const int left = column * tile_size;
+    const int top = row * tile_size;
+    return {left,
+            top,
+            std::min(tile_size, width_ - left),
+            std::min(tile_size, height_ - top),
+            tile.means.data(),
+            tile.rejected};
+  }
+
+  /// Gives the memory of the means back, for good.
+  void forget_means();
+
+  /// Forgets samples below used[p] of each pixel, and all means, if the store is over its budget.
   void trim(std::span<const std::uint32_t> used);
 
   /// Mean wall-clock seconds that one sample of each pixel took, with the threads that traced it
@@ -70,15 +112,14 @@ class SampleStore {
   bool partial() const { return partial_; }
 
  private:
-  static constexpr std::uint32_t tile_size = 8;
-  static constexpr std::size_t plane_samples = std::size_t(tile_size) * tile_size;
-
-  /// Samples of one tile: planes[i] holds number base + i of each of its pixels, or is null where
-  /// none of them has that sample. Neighbours want the same numbers at the same time, so that a
-  /// replay reads memory in order.
+  /// One tile: samples[i] holds number base + i of each of its pixels, or is null where none of
+  /// them has that sample, and means[n] the means of the first n. Neighbours want the same numbers
+  /// at the same time, so that a replay reads memory in order.
   struct Tile {
-    std::uint32_t base = 0;
-    std::vector<glm::vec3*> planes;
+    std::uint32_t base = 0;  // 0 while there are means
+    bool rejected = false;
+    std::vector<glm::vec3*> samples;
+    std::vector<glm::vec3*> means;
   };
 
   struct Place {
@@ -86,39 +127,20 @@ class SampleStore {
     std::uint32_t offset;  // in a plane
   };
 
-  /// Samples [first, end) of a pixel are here.
-  struct Range {
-    std::uint32_t first = 0;
+  /// The mean of samples 0 … end − 1 of a pixel.
+  struct Prefix {
+    glm::dvec3 sum{0.0};
+    std::uint32_t count = 0;  // without the rejected ones
     std::uint32_t end = 0;
   };
 
-  /// Planes, cut from slabs.
-  class Planes {
-   public:
-    glm::vec3* allocate();
-    void release(glm::vec3* plane) { free_.push_back(plane); }
-    /// Of the planes in use; what has been released waits to be used again.
-    std::size_t bytes() const {
-      const std::size_t cut = slabs_.size() * slab_planes - (slab_planes - used_);
-      return slabs_.empty() ? 0 : (cut - free_.size()) * plane_samples * sizeof(glm::vec3);
-    }
-
-   private:
-    struct Free {
-      void operator()(glm::vec3* slab) const { std::free(slab); }
-    };
-    // Huge pages: a replay touches every plane, and would else wait for the page tables.
-    static constexpr std::size_t slab_bytes = std::size_t(2) << 20;
-    static constexpr std::size_t slab_planes = slab_bytes / (plane_samples * sizeof(glm::vec3));
-
-    std::vector<std::unique_ptr<glm::vec3[], Free>> slabs_;
-    std::size_t used_ = slab_planes;  // of the last slab
-    std::vector<glm::vec3*> free_;
-  };
-
+  /// Samples to append to a pixel, and how it went.
   struct Job {
     std::uint32_t pixel;
-    std::uint32_t count;  // samples to append
+    std::uint32_t count;
+    std::uint64_t ticks = 0;
+    bool traced = false;
+    bool rejected = false;  // any of them
   };
 
   void make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end);
@@ -126,21 +148,27 @@ class SampleStore {
   void clear(std::size_t pixel);
   std::vector<Job> plan_pass(std::span<const std::uint32_t> begin,
                              std::span<const std::uint32_t> end);
-  void finish_pass(std::span<const Job> jobs, std::span<const std::uint64_t> ticks, double wall);
+  void append_means(std::uint32_t pixel, std::span<const glm::vec3> samples);
+  void finish_pass(std::span<const Job> jobs, double wall);
 
   int width_;
   int height_;
   std::size_t memory_budget_;
   std::vector<std::uint32_t> pixels_;
   std::vector<Place> places_;
-  std::vector<Range> ranges_;
+  // Samples [first, end) of a pixel are here.
+  std::vector<std::uint32_t> firsts_;
+  std::vector<std::uint32_t> ends_;
   std::vector<Tile> tiles_;
-  Planes planes_;
+  PlanePool sample_planes_;
+  PlanePool mean_planes_;
+  std::vector<Prefix> prefixes_;
   std::vector<float> seconds_per_sample_;
-  std::vector<std::uint32_t> timed_;  // samples behind each mean
+  std::vector<std::uint32_t> timed_;  // samples behind each mean of seconds
   std::uint64_t traced_ = 0;
   std::uint64_t stored_ = 0;
   double seconds_ = 0.0;
+  bool has_means_;
   bool partial_ = false;
 };
 

@@ -1,6 +1,7 @@
 // The estimators over a whole picture, one thread.
 
 #include <benchmark/benchmark.h>
+#include <tbb/task_arena.h>
 
 #include <random>
 #include <string>
@@ -35,10 +36,12 @@ void per_pixel(benchmark::State& state) {
 void estimate(benchmark::State& state, const Estimator& row) {
   const Film film = noisy_film();
   std::vector<float> error(std::size_t(row.channels) * film.size());
-  for (auto _ : state) {
-    row.estimate(film, error);
-    benchmark::DoNotOptimize(error.data());
-  }
+  tbb::task_arena(1).execute([&] {
+    for (auto _ : state) {
+      row.estimate(film, error);
+      benchmark::DoNotOptimize(error.data());
+    }
+  });
   per_pixel(state);
 }
 
@@ -48,10 +51,12 @@ void plan(benchmark::State& state) {
   std::vector<float> error(film.size());
   estimator(policy.estimator).estimate(film, error);
   Plan next;
-  for (auto _ : state) {
-    plan_next(policy, {width, height, error, film.counts(), 1}, next);
-    benchmark::DoNotOptimize(next.total);
-  }
+  tbb::task_arena(1).execute([&] {
+    for (auto _ : state) {
+      plan_next(policy, {width, height, error, film.counts(), 1}, next);
+      benchmark::DoNotOptimize(next.total);
+    }
+  });
   per_pixel(state);
 }
 BENCHMARK(plan)->Name("plan/vote")->Unit(benchmark::kMillisecond);

@@ -69,10 +69,13 @@ void replay(benchmark::State& state, std::size_t lanes, int threads) {
   }
   const SampleStore& store = lab.store();
   state.counters["B/sample"] = double(store.bytes()) / double(store.stored());
+  const Film& film = lab.lanes().front().film();
+  state.counters["B/pixel"] = double(film.bytes()) / double(film.size());
 }
 BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
+BENCHMARK_CAPTURE(replay, one_lane_two_threads, 1, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
