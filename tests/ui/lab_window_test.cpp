@@ -1,0 +1,310 @@
+// The window, used as a hand would use it: mouse and keys in, state and pixels out.
+
+#include "ui/lab_window.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "tests/image/temp_folder.h"
+#include "tests/ui/lab_hand.h"
+#include "ui/lane_header.h"
+
+namespace quartet {
+namespace {
+
+std::string lane_widget(std::size_t lane, const std::string& what) {
+  return "lane" + std::to_string(lane) + "." + what;
+}
+
+/// What is in the second picture, the heatmap, of every lane.
+std::array<std::vector<Rgba8>, lane_count> heatmaps(LabHand& hand) {
+  std::array<std::vector<Rgba8>, lane_count> all;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    all[lane] = hand.pixels(lane_widget(lane, "slot1"));
+  }
+  return all;
+}
+
+/// Only one lane's thing changed.
+template <class Things>
+void expect_only(std::size_t changed, const Things& before, const Things& after) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    EXPECT_EQ(before[lane] != after[lane], lane == changed) << "lane " << lane + 1;
+  }
+}
+
+TEST(LabWindow, DraggingAThresholdLineReplaysItsLaneAlone) {
+  LabHand hand;
+  // Each on a scale of its own, because the highest count of one lane is the end of all their
+  // scales otherwise.
+  hand.state().view.heat = HeatRange::report;
+  hand.settle();
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto before = heatmaps(hand);
+    const auto policies = hand.state().request.policies;
+    const std::uint64_t refined = hand.snapshot().lanes[lane].history.back().refined;
+    hand.drag(lane_widget(lane, "errors.marker0"), -45.0f);
+    hand.move(-100.0f, -100.0f);
+    hand.settle();
+    expect_only(lane, policies, hand.state().request.policies);
+    EXPECT_LT(hand.policy(lane).thresholds[0], policies[lane].thresholds[0]);
+    EXPECT_EQ(hand.snapshot().lanes[lane].policy, hand.policy(lane));
+    EXPECT_GT(hand.snapshot().lanes[lane].history.back().refined, refined);
+    expect_only(lane, before, heatmaps(hand));
+  }
+}
+
+TEST(LabWindow, EveryThresholdOfContrastHasItsLineAndSlider) {
+  LabHand hand;
+  for (int channel = 0; channel < 3; ++channel) {
+    const Thresholds before = hand.policy(0).thresholds;
+    hand.drag("lane0.errors.marker" + std::to_string(channel), 12.0f);
+    hand.drag("lane0.threshold" + std::to_string(channel), -15.0f);
+    for (int other = 0; other < 3; ++other) {
+      const auto c = std::size_t(other);
+      EXPECT_EQ(before[c] != hand.policy(0).thresholds[c], other == channel);
+    }
+  }
+  hand.click("lane0.reset");
+  EXPECT_EQ(hand.policy(0).thresholds, default_policy(EstimatorId::contrast).thresholds);
+}
+
+TEST(LabWindow, SlidersMoveWhatTheySay) {
+  LabHand hand;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto before = hand.state().request.policies;
+    hand.drag(lane_widget(lane, "multiplier"), 40.0f);
+    const auto moved = hand.state().request.policies;
+    expect_only(lane, before, moved);
+    EXPECT_NE(moved[lane].allocation.multiplier, before[lane].allocation.multiplier);
+    const std::string slider = lane_widget(lane, "threshold0");
+    hand.drag(slider, 25.0f);
+    expect_only(lane, moved, hand.state().request.policies);
+    // At either end the slider gives the end of its range.
+    const ScreenRect box = hand.rect(slider);
+    const ThresholdRange range = threshold_range(estimator(hand.policy(lane).estimator), 0);
+    hand.drag(box.center_x(), box.center_y(), box.x - 50.0f, box.center_y());
+    EXPECT_FLOAT_EQ(hand.policy(lane).thresholds[0], range.low);
+    hand.click(lane_widget(lane, "reset"));
+  }
+  hand.drag("exposure", 20.0f);
+  EXPECT_NE(hand.state().view.exposure, 0.0f);
+}
+
+TEST(LabWindow, EstimatorComboGivesTheLaneAnother) {
+  LabHand hand;
+  hand.state().view.heat = HeatRange::report;
+  hand.settle();
+  const auto before = heatmaps(hand);
+  hand.choose("lane2.estimator", "uniform");
+  hand.move(-100.0f, -100.0f);
+  hand.settle();
+  EXPECT_EQ(hand.policy(2).estimator, EstimatorId::uniform);
+  EXPECT_EQ(hand.snapshot().lanes[2].policy.estimator, EstimatorId::uniform);
+  expect_only(2, before, heatmaps(hand));
+  EXPECT_FALSE(hand.has("lane2.threshold0")) << "uniform has no threshold";
+  hand.choose("lane2.estimator", "kl");
+  hand.settle();
+  EXPECT_EQ(hand.policy(2), default_policy(EstimatorId::kl));
+  // The same policy gives the same lane.
+  EXPECT_EQ(hand.snapshot().lanes[2].taken, hand.snapshot().lanes[1].taken);
+}
+
+TEST(LabWindow, FramesAreScrubbedSteppedAndPlayed) {
+  LabHand hand;
+  ASSERT_EQ(hand.snapshot().frame, 5u);
+  const std::vector<std::uint32_t> last = hand.snapshot().lanes[1].taken;
+  const ScreenRect slider = hand.rect("frame");
+  hand.drag(slider.right() - 7.0f, slider.center_y(), slider.x + 3.0f, slider.center_y());
+  hand.settle();
+  EXPECT_EQ(hand.snapshot().frame, 1u);
+  hand.click("forward");
+  hand.settle();
+  EXPECT_EQ(hand.snapshot().frame, 2u);
+  hand.key('.');
+  hand.settle();
+  EXPECT_EQ(hand.snapshot().frame, 3u);
+  hand.key(',');
+  hand.settle();
+  EXPECT_EQ(hand.snapshot().frame, 2u);
+  EXPECT_FALSE(hand.state().playback.playing());
+  hand.key(' ');
+  for (int i = 0; i < 2000 && hand.snapshot().frame < 5; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hand.frame();
+  }
+  EXPECT_EQ(hand.snapshot().frame, 5u);
+  EXPECT_EQ(hand.snapshot().lanes[1].taken, last) << "a replay ends where the first run did";
+}
+
+TEST(LabWindow, WheelAndDragMoveAllPicturesTogether) {
+  LabHand hand;
+  const ScreenRect slot = hand.rect("lane1.slot0");
+  const auto before = hand.pixels("lane3.slot0");
+  hand.wheel(slot.center_x() + 30.0f, slot.center_y(), 3.0f);
+  EXPECT_NEAR(hand.state().pan_zoom.zoom, std::pow(1.2f, 3.0f), 1e-3f);
+  EXPECT_NE(hand.pixels("lane3.slot0"), before);
+  const glm::vec2 center = hand.state().pan_zoom.center;
+  hand.drag(slot.center_x(), slot.center_y(), slot.center_x() - 40.0f, slot.center_y() + 10.0f);
+  EXPECT_GT(hand.state().pan_zoom.center.x, center.x);
+  EXPECT_LT(hand.state().pan_zoom.center.y, center.y);
+  EXPECT_FALSE(hand.state().pinned) << "a drag is no click";
+  hand.key('f');
+  EXPECT_EQ(hand.state().pan_zoom, PanZoom());
+}
+
+TEST(LabWindow, AClickPinsThePixelUnderTheMouse) {
+  LabHand hand;
+  const ScreenRect slot = hand.rect("lane2.slot0");
+  const float x = slot.x + 0.25f * slot.width;
+  const float y = slot.y + 0.5f * slot.height;
+  hand.click(x, y);
+  ASSERT_TRUE(hand.state().pinned);
+  EXPECT_NEAR(hand.state().pinned->x, 24, 1);
+  EXPECT_NEAR(hand.state().pinned->y, 27, 1);
+  hand.move(-100.0f, -100.0f);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    EXPECT_TRUE(hand.has(lane_widget(lane, "slot0.read_out")));
+  }
+  hand.key(key_escape);
+  EXPECT_FALSE(hand.state().pinned);
+}
+
+TEST(LabWindow, LayoutsShowTheirLanes) {
+  LabHand hand;
+  hand.key('l');
+  EXPECT_EQ(hand.state().layout, LabLayout::grid);
+  EXPECT_GT(hand.rect("lane2.slot0").y, hand.rect("lane0.slot0").bottom());
+  hand.key('l');
+  EXPECT_EQ(hand.state().layout, LabLayout::large);
+  hand.key('3');
+  EXPECT_TRUE(hand.has("lane2.slot0"));
+  EXPECT_FALSE(hand.has("lane0.slot0"));
+  EXPECT_GT(hand.rect("lane2.slot0").width, 1000.0f);
+  hand.settle();
+  const auto a = hand.pixels("lane2.slot0");
+  hand.key('w');
+  hand.frames(3);
+  EXPECT_NE(hand.pixels("lane2.slot0"), a);
+  const float at = hand.state().comparison.wipe_at;
+  hand.drag("wipe", -120.0f);
+  EXPECT_LT(hand.state().comparison.wipe_at, at);
+  hand.key('a');
+  EXPECT_EQ(hand.state().comparison.lane, 0u);
+  EXPECT_EQ(hand.state().comparison.other, 2u);
+  hand.choose("layout", "0");
+  hand.key(key_escape);
+}
+
+TEST(LabWindow, HoldingAKeyShowsTheFirstLaneEverywhere) {
+  LabHand hand;
+  const auto before = heatmaps(hand);
+  ASSERT_NE(before[3], before[0]);
+  hand.window().key({'c', true, false, false});
+  hand.frames(3);
+  EXPECT_NE(heatmaps(hand)[3], before[3]);
+  hand.window().key({'c', false, false, false});
+  hand.frames(3);
+  EXPECT_EQ(heatmaps(hand)[3], before[3]);
+}
+
+TEST(LabWindow, ABrokenSceneIsNamedAndTheOldOneStays) {
+  const TempFolder folder;
+  const std::filesystem::path broken = folder / "broken.xml";
+  std::ofstream(broken) << "<scene version=\"3.0.0\">\n  <shape type=\"rectangle\">\n</scene>\n";
+  LabHand hand;
+  const auto scene = hand.state().request.scene;
+  hand.click("scene");
+  hand.frames(3);
+  hand.click("scene.path");
+  hand.type(broken.string());
+  for (int i = 0; i < 2000 && hand.window().message().kind == Message::Kind::none; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hand.frame();
+  }
+  ASSERT_EQ(hand.window().message().kind, Message::Kind::error);
+  EXPECT_NE(hand.window().message().text.find("broken.xml:"), std::string::npos)
+      << hand.window().message().text;
+  EXPECT_EQ(hand.state().request.scene, scene);
+  EXPECT_EQ(hand.snapshot().frame, 5u);
+  hand.click("message");
+  EXPECT_EQ(hand.window().message().kind, Message::Kind::none);
+}
+
+TEST(LabWindow, CameraTurnsAndComesHome) {
+  LabHand hand;
+  const Camera home = hand.state().request.settings.camera;
+  const ScreenRect slot = hand.rect("lane0.slot0");
+  hand.drag(slot.center_x(), slot.center_y(), slot.center_x() + 20.0f, slot.center_y(), 1);
+  hand.settle();
+  const Camera& turned = hand.state().request.settings.camera;
+  EXPECT_NE(turned, home);
+  EXPECT_NEAR(glm::length(turned.forward), 1.0f, 1e-5f);
+  EXPECT_NEAR(glm::dot(turned.forward, turned.right), 0.0f, 1e-5f);
+  EXPECT_NEAR(glm::distance(turned.origin, hand.state().camera.pivot),
+              glm::distance(home.origin, hand.state().camera.pivot), 0.01f);
+  EXPECT_EQ(hand.snapshot().settings.camera, turned);
+  hand.key(key_page_up);
+  EXPECT_LT(glm::distance(hand.state().request.settings.camera.origin, hand.state().camera.pivot),
+            glm::distance(home.origin, hand.state().camera.pivot));
+  hand.key(key_home);
+  hand.settle();
+  EXPECT_EQ(hand.state().request.settings.camera, home);
+}
+
+TEST(LabWindow, EveryViewHasSomethingToShow) {
+  LabHand hand;
+  for (const ViewRow& row : views()) {
+    if (row.key == ViewKind::difference) {
+      continue;
+    }
+    hand.choose("lane1.slot1.view", std::string(row.id));
+    hand.move(-100.0f, -100.0f);
+    hand.settle();
+    EXPECT_EQ(hand.state().slots[1][1].kind, row.key);
+    EXPECT_EQ(hand.state().request.variance, row.key == ViewKind::variance);
+  }
+  hand.choose("lane1.slot1.view", "difference0");
+  EXPECT_EQ(hand.state().slots[1][1], (SlotChoice{ViewKind::difference, 0}));
+}
+
+TEST(LabWindow, ExportSaysWhereAndHowToRepeatIt) {
+  const TempFolder folder;
+  LabHand hand;
+  hand.drag("lane1.threshold0", 12.0f);
+  hand.settle();
+  hand.state().export_form.folder = (folder / "out").string();
+  hand.key('s');
+  hand.frames(3);
+  hand.click("export.save");
+  ASSERT_EQ(hand.window().message().kind, Message::Kind::notice) << hand.window().message().text;
+  for (const char* name : {"images.png", "images.pdf", "heatmaps.png", "kl.exr", "command.txt"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+  }
+  const std::string command = bytes_of(folder / "out" / "command.txt");
+  EXPECT_NE(command.find("--size 96x54"), std::string::npos) << command;
+  EXPECT_NE(command.find("--frames 5"), std::string::npos) << command;
+}
+
+TEST(LabWindow, NothingLeavesTheWindow) {
+  for (const auto& [width, height] : {std::pair(1280, 720), {1600, 1000}, {3840, 2160}}) {
+    LabHand hand(width, height);
+    for (const LabLayout layout : {LabLayout::columns, LabLayout::grid, LabLayout::large}) {
+      hand.state().layout = layout;
+      hand.frames(3);
+      for (const auto& [name, box] : hand.window().ui().widgets) {
+        EXPECT_GE(box.x, 0.0f) << name;
+        EXPECT_GE(box.y, 0.0f) << name;
+        EXPECT_LE(box.right(), float(width)) << name << " at " << width << "x" << height;
+        EXPECT_LE(box.bottom(), float(height)) << name << " at " << width << "x" << height;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quartet
