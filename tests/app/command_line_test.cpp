@@ -86,7 +86,7 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(figure({"--max-spp", "0"}), "--max-spp");
   expect_usage_error(figure({"-D", "novalue"}), "write name=value");
   expect_usage_error({"figure", "cornell-box"}, "--out");
-  expect_usage_error({"paint"}, "paint");
+  expect_usage_error({"paint"}, "'paint' is neither a command");
 
   const std::string exr = (folder.path() / "x.exr").string();
   const auto render = [&](std::vector<std::string> more) {

@@ -2,6 +2,7 @@
 // window did is read from the files that its own export writes.
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -148,8 +149,8 @@ TEST(RealWindow, ADragAndAKeyArriveAndItClosesAtOnce) {
   const ssize_t length = read(pipe_ends[0], number.data(), number.size() - 1);
   close(pipe_ends[0]);
   ASSERT_GT(length, 0) << "Xvfb did not start";
-  const std::string display = ":" + std::to_string(std::atoi(number.data()));
-  const std::string hand = "DISPLAY=" + display + " xdotool ";
+  const std::string display = fmt::format(":{}", std::atoi(number.data()));
+  const std::string hand = fmt::format("DISPLAY={} xdotool ", display);
 
   const std::map<std::string, ScreenRect> widgets = widgets_of_twin();
   Process program({QUARTET_PROGRAM, (folder / "ball.xml").string(), "--ui-scale", "1"},
