@@ -193,8 +193,10 @@ TEST(LabWindow, LayoutsShowTheirLanes) {
   const float at = hand.state().comparison.wipe_at;
   hand.drag("wipe", -120.0f);
   EXPECT_LT(hand.state().comparison.wipe_at, at);
+  const Comparison unflipped = hand.state().comparison;
+  EXPECT_EQ(unflipped.lane, 2u);
   hand.key('a');
-  EXPECT_EQ(hand.state().comparison.lane, 0u);
+  EXPECT_EQ(hand.state().comparison.lane, unflipped.other);
   EXPECT_EQ(hand.state().comparison.other, 2u);
   hand.choose("layout", "0");
   hand.key(key_escape);
