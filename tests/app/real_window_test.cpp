@@ -180,6 +180,9 @@ TEST(RealWindow, ADragAndAKeyArriveAndItClosesAtOnce) {
   };
   run("windowmove " + window + " 0 0 windowfocus " + window);
 
+  // A window that is shown may not have drawn yet, and what comes before its first picture is lost.
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+
   // The threshold of lane 2 to the right, by a slider, then half a stop by a key.
   const ScreenRect slider = widgets.at("lane1.threshold0");
   run("mousemove " + at(slider));
