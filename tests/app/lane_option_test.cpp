@@ -1,0 +1,38 @@
+#include "app/lane_option.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/image/temp_folder.h"
+
+namespace quartet {
+namespace {
+
+TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
+  for (const Estimator& row : estimators()) {
+    SamplingPolicy policy = default_policy(row.key);
+    for (int c = 0; c < row.channels; ++c) {
+      policy.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
+    }
+    policy.allocation.multiplier = 0.1f;
+    policy.allocation.stochastic_rounding = true;
+    policy.max_spp = 77;
+    SamplingPolicy read = policy_of_lane(lane_text(policy), {});
+    for (int c = row.channels; c < 3; ++c) {
+      read.thresholds[std::size_t(c)] = policy.thresholds[std::size_t(c)];
+    }
+    EXPECT_EQ(read, policy) << lane_text(policy);
+  }
+}
+
+TEST(LaneOption, SaysWhatIsWrong) {
+  for (const char* text : {"kl:", "kl:x", "kl:0", "kl:-1", "kl:nan", "kl:1,2", "contrast:1,2",
+                           "kl:multiplier=", "uniform:1", "kl:max-spp=many", "kl:speed=3"}) {
+    EXPECT_NE(error_of([&] { policy_of_lane(text, {}); }).find("--lane"), std::string::npos)
+        << text;
+  }
+  EXPECT_NE(error_of([] { policy_of_lane("best:1", {}); }).find("there are: contrast"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace quartet
