@@ -119,9 +119,10 @@ LightSample Lights::sample(glm::vec3 from, float u, float v) const {
   std::size_t chosen = 0;
   if (lights_.size() > 1) {
     chosen = std::size_t(std::upper_bound(cdf_.begin(), cdf_.end() - 1, u) - cdf_.begin());
-    // What is left of u within the light's interval is uniform again, and as well stratified.
+    // What is left of u within the light's interval is uniform again, and as well stratified. A
+    // number stands for its whole step: a light of few steps would else be sampled off its centre.
     const float below = chosen > 0 ? cdf_[chosen - 1] : 0.0f;
-    u = std::clamp((u - below) / (cdf_[chosen] - below), 0.0f, 0x1.fffffep-1f);
+    u = std::clamp((u - below + 0x1p-25f) / (cdf_[chosen] - below), 0.0f, 0x1.fffffep-1f);
   }
   const Light& light = lights_[chosen];
   switch (light.kind) {

@@ -166,6 +166,66 @@ TEST(Lab, AShortMemoryChangesNothingButWork) {
   expect_same_state(ample.lanes()[2], tight.lanes()[2]);
 }
 
+/// Radiance that depends on all arguments, where `bad` is asked for every seventh sample negative
+/// or not a number.
+SampleSource noise(bool bad) {
+  return [bad](int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      const auto n = float(first + i);
+      const float value = 0.5f + 0.5f * std::sin(12.9898f * float(x) + 78.233f * float(y) + 37 * n);
+      radiance[i] = glm::vec3(value, value * value, std::sqrt(value));
+      if (bad && x % 16 == 3 && (first + i) % 7 == 3) {
+        radiance[i][(first + i) % 3] = y % 2 == 0 ? -1.0f : std::nanf("");
+      }
+    }
+  };
+}
+
+TEST(Lab, MeansLookedUpAreThoseAddedUp) {
+  const auto policies = all_policies();
+  // A lane that wants the variance must add.
+  LabOptions adds;
+  adds.statistics.variance = true;
+  for (const bool bad : {false, true}) {
+    Lab looking_up(noise(bad), width, height, policies);
+    Lab adding(noise(bad), width, height, policies, adds);
+    run(looking_up, 9);
+    run(adding, 9);
+    EXPECT_TRUE(looking_up.store().has_means());
+    for (std::size_t i = 0; i < policies.size(); ++i) {
+      EXPECT_FALSE(looking_up.lanes()[i].film().has_sums());
+      EXPECT_TRUE(adding.lanes()[i].film().has_sums());
+      expect_same_state(looking_up.lanes()[i], adding.lanes()[i]);
+      EXPECT_TRUE(std::ranges::equal(looking_up.lanes()[i].film().rejected(),
+                                     adding.lanes()[i].film().rejected()));
+      EXPECT_EQ(looking_up.lanes()[i].film().total_rejected() > 0, bad);
+    }
+  }
+}
+
+TEST(Lab, ChangesFromLookingUpToAddingInTheMiddle) {
+  const auto policies = all_policies();
+  for (const bool bad : {false, true}) {
+    Lab ample(noise(bad), width, height, policies);
+    run(ample, 5);
+    LabOptions options;
+    options.memory = ample.store().bytes();
+    Lab tight(noise(bad), width, height, policies, options);
+    run(tight, 5);
+    EXPECT_TRUE(tight.store().has_means());
+    run(tight, 12);
+    EXPECT_FALSE(tight.store().has_means());
+    run(ample, 12);
+    EXPECT_TRUE(ample.store().has_means());
+    for (std::size_t i = 0; i < policies.size(); ++i) {
+      EXPECT_TRUE(tight.lanes()[i].film().has_sums());
+      expect_same_state(ample.lanes()[i], tight.lanes()[i]);
+      EXPECT_TRUE(std::ranges::equal(ample.lanes()[i].film().rejected(),
+                                     tight.lanes()[i].film().rejected()));
+    }
+  }
+}
+
 TEST(Lab, StoppedWorkIsKeptAndTakenUpAgain) {
   const auto policies = all_policies();
   std::stop_source stop;

@@ -287,6 +287,21 @@ TEST(Lights, ProbabilityIsExactlyTheShareOfNumbers) {
   }
 }
 
+TEST(Lights, ALightOfFewNumbersIsSampledAroundItsCentre) {
+  Scene scene;
+  const auto flat = parallelogram(corner, {0.0f, 1.4f, 0.0f}, {1.0f, 0.0f, 0.0f});
+  add_light(scene, flat, 1.0f);
+  add_light(scene, flat, 0x3p-24f);
+  const TraceScene trace(std::move(scene));
+  double sum = 0.0;
+  for (const float u : {1.0f - 0x3p-24f, 1.0f - 0x2p-24f, 1.0f - 0x1p-24f}) {
+    const LightSample s = trace.lights().sample(glm::vec3(0.0f), u, 0.5f);
+    ASSERT_EQ(s.radiance, glm::vec3(0x3p-24f)) << "only the dim light has these numbers";
+    sum += double(s.direction.y / s.direction.z);
+  }
+  EXPECT_NEAR(sum / 3.0, 0.3, 1e-6);
+}
+
 TEST(Lights, ShineOnOneSideOnly) {
   struct Behind {
     std::string name;
