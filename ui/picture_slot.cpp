@@ -176,7 +176,7 @@ void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int heigh
     if (ImGui::IsMouseDoubleClicked(0)) {
       state.pan_zoom = {};
     }
-    const float way = std::hypot(io.MouseDragMaxDistanceAbs[0].x, io.MouseDragMaxDistanceAbs[0].y);
+    const float way = std::sqrt(io.MouseDragMaxDistanceSqr[0]);
     if (ImGui::IsMouseReleased(0) && way < frame.ui.px(3.0f)) {
       state.pinned = state.pinned == pixel ? std::nullopt : pixel;
     }
