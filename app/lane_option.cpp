@@ -12,10 +12,11 @@ namespace quartet {
 namespace {
 
 [[noreturn]] void fail(const std::string& text, const std::string& reason) {
-  throw UsageError(fmt::format(
-      "--lane: '{}': {}; write ESTIMATOR or ESTIMATOR:THRESHOLDS with multiplier=X, max-spp=N, "
-      "stochastic-rounding as wanted, such as contrast:0.4,0.3,0.6,multiplier=1",
-      text, reason));
+  throw UsageError(
+      fmt::format("--lane: '{}': {}; write ESTIMATOR or ESTIMATOR:THRESHOLDS with policy=P, "
+                  "multiplier=X, max-spp=N, "
+                  "stochastic-rounding as wanted, such as contrast:0.4,0.3,0.6,multiplier=1",
+                  text, reason));
 }
 
 template <class Number>
@@ -95,6 +96,9 @@ std::string lane_text(const SamplingPolicy& policy) {
   for (int c = 0; c < row.channels; ++c) {
     add(fmt::format("{}", policy.thresholds[std::size_t(c)]));
   }
+  if (policy.allocation.kind != Allocation{}.kind) {
+    add(fmt::format("policy={}", allocation(policy.allocation.kind).id));
+  }
   add(fmt::format("multiplier={}", policy.allocation.multiplier));
   if (policy.max_spp != SamplingPolicy{}.max_spp) {
     add(fmt::format("max-spp={}", policy.max_spp));
@@ -117,7 +121,9 @@ SamplingPolicy policy_of_lane(const std::string& text, const RunOptions& run) {
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (name == "multiplier") {
+    if (name == "policy") {
+      policy.allocation.kind = find_allocation(value).key;
+    } else if (name == "multiplier") {
       policy.allocation.multiplier = positive_number(text, value, true);
     } else if (name == "max-spp") {
       policy.max_spp = std::max(1u, number_of<std::uint32_t>(text, value));

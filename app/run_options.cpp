@@ -109,7 +109,9 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
   command.add_option("--memory", options.memory_gib, "For stored samples, in GiB")
       ->check(number_between(0.001, 1e6))
       ->capture_default_str();
-  command.add_option("--policy", options.policy, "How errors become sample counts: vote")
+  command
+      .add_option("--policy", options.policy,
+                  "How errors become sample counts: vote, two-level, batch or converge")
       ->capture_default_str();
   command
       .add_option("--multiplier", options.multiplier,

@@ -81,14 +81,16 @@ bool edit_multiplier(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
   text_at(ui.body, box.x, box.y + ui.px(4.0f), palette::dim, "×");
   ImGui::SetCursorScreenPos({box.x + ui.px(14.0f), box.y});
   float& value = policy.allocation.multiplier;
+  ImGui::BeginDisabled(policy.allocation.kind != AllocationId::vote);
   bool changed = slider(ui, lane_name(lane, "multiplier"), value, {0.0f, 2.0f},
                         box.width - field - gap - ui.px(14.0f), lane_color(lane));
   tooltip(ui,
           "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 its "
-          "pictures.");
+          "pictures. Of the policy vote alone.");
   ImGui::SetCursorScreenPos({box.right() - field, box.y});
   changed |=
       number_field(ui, lane_name(lane, "multiplier.number"), value, 0.0f, 1000.0f, "%.2f", field);
+  ImGui::EndDisabled();
   return changed;
 }
 

@@ -209,11 +209,18 @@ bool LabWorker::lanes_are_together() const {
                              [&](const Lane& lane) { return lane.frame() == lab_->frame(); });
 }
 
+/// Whether a request without an end has come to one, because no lane wants another sample.
+bool LabWorker::has_run_out() const {
+  return current_->request.frame == LabRequest::no_end &&
+         std::ranges::all_of(lab_->lanes(),
+                             [](const Lane& lane) { return lane.plan().total == 0; });
+}
+
 bool LabWorker::snapshot_is_due() const {
   if (!lanes_are_together()) {
     return false;
   }
-  if (!shown_ || lab_->frame() == current_->request.frame) {
+  if (!shown_ || lab_->frame() == current_->request.frame || has_run_out()) {
     return true;
   }
   const auto interval = lab_->frame() > shown_->frame ? snapshot_interval : replay_interval;
@@ -249,7 +256,7 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   shown_variance_ = current_->request.variance;
   owes_first_picture_ = false;
   answered_ = true;
-  complete_ = shown_->frame == current_->request.frame;
+  complete_ = shown_->frame == current_->request.frame || has_run_out();
   published_at_ = Clock::now();
   if (complete_ && mailbox_.waiting() == Mailbox::Waiting::nothing) {
     status_.activity = Activity::idle;

@@ -41,6 +41,7 @@ class LabWorker {
   SampleSource watched(SampleSource trace);
 
   bool lanes_are_together() const;
+  bool has_run_out() const;
   bool snapshot_is_due() const;
   bool is_answered_by_shown() const;
   void publish_lanes();

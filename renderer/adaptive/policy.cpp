@@ -51,7 +51,12 @@ class Marks {
   }
 
   std::uint32_t count(int y) {
-    return sum_of(marks(y), width_);
+    return sum_of(row(y), width_);
+  }
+
+  /// 1 for each pixel of a row that is marked, 0 for the others.
+  const std::uint8_t* row(int y) {
+    return marks(y);
   }
 
   /// Marks in the three rows around row y, with a column of zeros to the left and to the right: the
@@ -90,15 +95,11 @@ float dither(std::uint32_t pixel, std::uint32_t frame) {
   return float(x >> 8) * 0x1p-24f;
 }
 
-/// The policy of the 2021 report: every pixel above its threshold votes for itself and its up to
-/// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
-void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
-  if (input.frame == 0 || estimator(policy.estimator).channels == 0) {
-    std::fill(plan.wanted.begin(), plan.wanted.end(), std::uint16_t(1));
-    return;
-  }
+/// Marks the pixels above their threshold, counts them as refined, and calls row(y, marks, wanted)
+/// for each row of the picture, from several threads.
+template <class Row>
+void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan, const Row& row) {
   const auto width = std::size_t(input.width);
-  const float multiplier = policy.allocation.multiplier;
   std::atomic<std::uint64_t> refined = 0;
   parallel_for(std::size_t(input.height), grain_rows, [&](std::size_t begin, std::size_t end) {
     Marks marks(policy, input);
@@ -108,32 +109,112 @@ void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
     for (std::size_t y = begin; y < end; ++y) {
       marks.mark(int(y) + 1);
       marked += marks.count(int(y));
-      const std::uint8_t* columns = marks.columns(int(y));
-      std::uint16_t* wanted = plan.wanted.data() + y * width;
-      // Through int, for which there are vectors; it rounds down because no term is negative.
-      if (policy.allocation.stochastic_rounding) {
-        const auto first = std::uint32_t(y * width);
-#pragma omp simd
-        for (std::size_t x = 0; x < width; ++x) {
-          const int votes = columns[x] + columns[x + 1] + columns[x + 2];
-          const float offset = dither(first + std::uint32_t(x), input.frame);
-          wanted[x] = std::uint16_t(1 + int(multiplier * float(votes) + offset));
-        }
-      } else {
-#pragma omp simd
-        for (std::size_t x = 0; x < width; ++x) {
-          const int votes = columns[x] + columns[x + 1] + columns[x + 2];
-          wanted[x] = std::uint16_t(1 + int(multiplier * float(votes)));
-        }
-      }
+      row(y, marks, plan.wanted.data() + y * width);
     }
     refined += marked;
   });
   plan.refined = refined;
 }
 
+void plan_everywhere(Plan& plan, std::uint16_t samples) {
+  std::fill(plan.wanted.begin(), plan.wanted.end(), samples);
+}
+
+/// The policy of the 2021 report: every pixel above its threshold votes for itself and its up to
+/// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
+void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  if (input.frame == 0) {
+    plan_everywhere(plan, 1);
+    return;
+  }
+  const auto width = std::size_t(input.width);
+  const float multiplier = policy.allocation.multiplier;
+  plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
+    const std::uint8_t* columns = marks.columns(int(y));
+    // Through int, for which there are vectors; it rounds down because no term is negative.
+    if (policy.allocation.stochastic_rounding) {
+      const auto first = std::uint32_t(y * width);
+#pragma omp simd
+      for (std::size_t x = 0; x < width; ++x) {
+        const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+        const float offset = dither(first + std::uint32_t(x), input.frame);
+        wanted[x] = std::uint16_t(1 + int(multiplier * float(votes) + offset));
+      }
+    } else {
+#pragma omp simd
+      for (std::size_t x = 0; x < width; ++x) {
+        const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+        wanted[x] = std::uint16_t(1 + int(multiplier * float(votes)));
+      }
+    }
+  });
+}
+
+/// What the policies below give a pixel at once: one pass of the sampler's stratification.
+constexpr std::uint16_t batch_samples = 8;
+
+/// A batch for every pixel above its threshold, none for the others.
+void plan_marked(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  const auto width = std::size_t(input.width);
+  plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
+    const std::uint8_t* row = marks.row(int(y));
+#pragma omp simd
+    for (std::size_t x = 0; x < width; ++x) {
+      wanted[x] = std::uint16_t(row[x] * batch_samples);
+    }
+  });
+}
+
+/// Mitchell 1987: one sample everywhere, and after a single look eight more where it is needed.
+void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  if (input.frame == 0) {
+    plan_everywhere(plan, 1);
+  } else if (input.frame == 1) {
+    plan_marked(policy, input, plan);
+  } else {
+    plan_everywhere(plan, 0);
+  }
+}
+
+/// Rigau, Feixas and Sbert 2003: eight samples everywhere, then eight more wherever the error is
+/// above the threshold, until it is so nowhere.
+void plan_batch(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  if (input.frame == 0) {
+    plan_everywhere(plan, batch_samples);
+  } else {
+    plan_marked(policy, input, plan);
+  }
+}
+
+/// As production renderers do it: no pixel is looked at before it has `minimum` samples, because
+/// one lucky agreement of few would stop it for good; then batches, also for the neighbours of a
+/// pixel above its threshold.
+void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  constexpr std::uint16_t minimum = 16;
+  if (input.frame == 0) {
+    plan_everywhere(plan, minimum);
+    return;
+  }
+  const auto width = std::size_t(input.width);
+  plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
+    const std::uint8_t* columns = marks.columns(int(y));
+#pragma omp simd
+    for (std::size_t x = 0; x < width; ++x) {
+      const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+      wanted[x] = std::uint16_t(votes > 0 ? batch_samples : 0);
+    }
+  });
+}
+
 constexpr std::array table{
     AllocationRow{AllocationId::vote, "vote", "vote", "the 2021 course report", plan_vote},
+    AllocationRow{AllocationId::two_level, "two-level", "two-level",
+                  "Mitchell 1987: 1 sample everywhere, then once 8 more", plan_two_level},
+    AllocationRow{AllocationId::batch, "batch", "batch",
+                  "Rigau, Feixas and Sbert 2003: 8 everywhere, then 8 more until done", plan_batch},
+    AllocationRow{AllocationId::converge, "converge", "converge",
+                  "production renderers: 16 everywhere, then 8 more around each pixel not done",
+                  plan_converge},
 };
 
 }  // namespace
@@ -162,7 +243,11 @@ void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
   plan.wanted.resize(pixels);
   plan.total = 0;
   plan.refined = 0;
-  allocation(policy.allocation.kind).plan(policy, input, plan);
+  if (estimator(policy.estimator).channels == 0) {
+    plan_everywhere(plan, 1);  // without an error there is nothing to choose by
+  } else {
+    allocation(policy.allocation.kind).plan(policy, input, plan);
+  }
   std::atomic<std::uint64_t> total = 0;
   parallel_for((pixels + part_pixels - 1) / part_pixels, 1,
                [&](std::size_t first, std::size_t last) {

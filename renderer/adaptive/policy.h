@@ -9,7 +9,7 @@
 
 namespace quartet {
 
-enum class AllocationId { vote };
+enum class AllocationId { vote, two_level, batch, converge };
 
 /// How errors become sample counts; which fields matter is the allocation's affair.
 struct Allocation {
@@ -63,7 +63,8 @@ const AllocationRow& allocation(AllocationId key);
 /// Throws std::invalid_argument that lists the legal ids.
 const AllocationRow& find_allocation(std::string_view id);
 
-/// Plans the next frame, from nothing but the arguments; `plan` is overwritten.
+/// Plans the next frame, from nothing but the arguments; `plan` is overwritten. An estimator
+/// without an error gives every pixel one sample, whatever the allocation.
 void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
 
 }  // namespace quartet

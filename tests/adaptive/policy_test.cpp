@@ -138,6 +138,67 @@ TEST(Vote, UniformNeverAsksForMore) {
             std::vector<std::uint16_t>(16, 1));
 }
 
+SamplingPolicy kl_policy(AllocationId kind) {
+  SamplingPolicy policy = default_policy(EstimatorId::kl);
+  policy.allocation.kind = kind;
+  return policy;
+}
+
+using Counts = std::vector<std::uint16_t>;
+
+TEST(TwoLevel, LooksOnce) {
+  const SamplingPolicy policy = kl_policy(AllocationId::two_level);
+  Picture picture(3, 1);
+  picture.error = {1.0f, 0.0f, 1.0f};
+  EXPECT_EQ(picture.plan(policy, 0).wanted, (Counts{1, 1, 1}));
+  const Plan second = picture.plan(policy, 1);
+  EXPECT_EQ(second.wanted, (Counts{8, 0, 8}));
+  EXPECT_EQ(second.refined, 2u);
+  EXPECT_EQ(picture.plan(policy, 2).total, 0u);
+  EXPECT_EQ(picture.plan(policy, 2).refined, 0u);
+}
+
+TEST(Batch, GoesOnUntilNoErrorIsAboveTheThreshold) {
+  SamplingPolicy policy = kl_policy(AllocationId::batch);
+  policy.max_spp = 20;
+  Picture picture(3, 1);
+  picture.taken = {0, 0, 0};
+  EXPECT_EQ(picture.plan(policy, 0).wanted, (Counts{8, 8, 8}));
+  picture.taken = {8, 8, 8};
+  picture.error = {1.0f, 0.0f, 1.0f};
+  EXPECT_EQ(picture.plan(policy, 1).wanted, (Counts{8, 0, 8}));
+  picture.taken = {16, 8, 16};
+  picture.error = {1.0f, 0.0f, 0.0f};
+  EXPECT_EQ(picture.plan(policy, 2).wanted, (Counts{4, 0, 0})) << "up to the maximum";
+  picture.error = {0.0f, 0.0f, 0.0f};
+  EXPECT_EQ(picture.plan(policy, 3).total, 0u);
+}
+
+TEST(Converge, KeepsTheNeighboursOfAnActivePixelActive) {
+  const SamplingPolicy policy = kl_policy(AllocationId::converge);
+  Picture picture(5, 5);
+  picture.error[0] = 1.0f;
+  EXPECT_EQ(picture.plan(policy, 0).wanted, Counts(25, 16));
+  const Plan plan = picture.plan(policy, 1);
+  EXPECT_EQ(plan.refined, 1u);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      EXPECT_EQ(plan.wanted[std::size_t(5) * std::size_t(y) + std::size_t(x)],
+                x <= 1 && y <= 1 ? 8 : 0);
+    }
+  }
+}
+
+TEST(Tables, WithoutAnErrorAllPixelsAreAlikeUnderEachAllocation) {
+  for (const AllocationRow& row : allocations()) {
+    SamplingPolicy policy = default_policy(EstimatorId::uniform);
+    policy.allocation.kind = row.key;
+    Picture picture(4, 4);
+    picture.error.clear();
+    EXPECT_EQ(picture.plan(policy, 3).wanted, Counts(16, 1)) << row.id;
+  }
+}
+
 TEST(Tables, IdsAreUniqueAndFound) {
   for (const Estimator& row : estimators()) {
     EXPECT_EQ(&find_estimator(row.id), &row);

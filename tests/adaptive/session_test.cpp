@@ -132,6 +132,32 @@ TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
   EXPECT_GT(before, 2);
 }
 
+TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.frame = LabRequest::no_end;
+  for (SamplingPolicy& policy : request.policies) {
+    policy.allocation.kind = AllocationId::two_level;
+  }
+  session.submit(request);
+  auto snapshot = session.latest();
+  const auto end = Clock::now() + patience;
+  while (Clock::now() < end && (!snapshot || snapshot->frame < 2)) {
+    snapshot = session.latest();
+  }
+  wait_until_idle(session);
+  ASSERT_EQ(session.status().activity, SessionStatus::Activity::idle);
+  snapshot = session.latest();
+  for (const LaneSnapshot& lane : snapshot->lanes) {
+    EXPECT_EQ(lane.plan.total, 0u);
+    EXPECT_GE(lane.history.size(), 2u);
+  }
+  // It can be woken again, and goes on from there.
+  request.policies[0].allocation.kind = AllocationId::vote;
+  request.frame = 6;
+  expect_as_headless(session, request);
+}
+
 TEST(SessionThreads, AShortMemoryChangesNothing) {
   Session session;
   LabRequest request = four_lanes();

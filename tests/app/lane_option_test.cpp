@@ -13,6 +13,7 @@ TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
     for (int c = 0; c < row.channels; ++c) {
       policy.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
     }
+    policy.allocation.kind = AllocationId::converge;
     policy.allocation.multiplier = 0.1f;
     policy.allocation.stochastic_rounding = true;
     policy.max_spp = 77;
