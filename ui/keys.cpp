@@ -13,11 +13,7 @@ constexpr float orbit_step = 0.06f;
 
 template <std::size_t lane>
 void choose_lane(LabState& state) {
-  Comparison& comparison = state.comparison;
-  if (comparison.other == lane) {
-    comparison.other = comparison.lane;
-  }
-  comparison.lane = lane;
+  state.comparison.choose(lane);
 }
 
 void next_layout(LabState& state) {

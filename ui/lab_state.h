@@ -33,6 +33,12 @@ struct Comparison {
   std::size_t other = 1;  ///< B
   bool wipe = false;      ///< A left of the line, B right of it
   float wipe_at = 0.5f;   ///< in parts of the slot
+
+  /// Makes a lane A; if it was B, the two change places.
+  void choose(std::size_t a) {
+    other = other == a ? lane : other;
+    lane = a;
+  }
 };
 
 struct ExportForm {

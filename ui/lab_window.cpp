@@ -45,8 +45,7 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
         std::to_string(i + 1) + "  " +
         std::string(estimator(frame.state.request.policies[i].estimator).label);
     if (button("tab" + std::to_string(i), text, lane_color(i), i == comparison.lane)) {
-      comparison.other = comparison.other == i ? comparison.lane : comparison.other;
-      comparison.lane = i;
+      comparison.choose(i);
     }
   }
   x += ui.px(16.0f);
@@ -60,7 +59,7 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
   if (button("flip", "flip A, B", palette::text, false)) {
     std::swap(comparison.lane, comparison.other);
   }
-  tooltip(ui, "A");
+  tooltip(ui, "A and B change places  (A)");
   if (button("wipe_toggle", "wipe", palette::text, comparison.wipe)) {
     comparison.wipe = !comparison.wipe;
   }

@@ -10,6 +10,7 @@
 
 #include "renderer/scene/load_scene.h"
 #include "ui/imgui_compat.h"
+#include "ui/view_controls.h"
 #include "ui/widgets.h"
 
 namespace quartet {
@@ -28,15 +29,6 @@ struct Item {
 
 float combo_width(const Ui& ui, const std::string& text) {
   return text_width(ui.body, text) + ui.px(20.0f) + ImGui::GetFrameHeight();
-}
-
-float label(const Ui& ui, const std::string& text) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  text_at(ui.body, at.x, at.y + 0.5f * (ImGui::GetFrameHeight() - font_size(ui.body)), palette::dim,
-          text);
-  const float width = text_width(ui.body, text) + ui.px(6.0f);
-  ImGui::SetCursorScreenPos({at.x + width, at.y});
-  return width;
 }
 
 std::string scene_label(const LabState& state) {
@@ -134,7 +126,7 @@ void draw_size(LabFrame& frame, float width) {
 
 void draw_seed(LabFrame& frame, float width) {
   const float start = ImGui::GetCursorScreenPos().x;
-  label(frame.ui, "seed");
+  leading_label(frame.ui, "seed");
   ImGui::SetNextItemWidth(width - (ImGui::GetCursorScreenPos().x - start));
   std::uint64_t seed = frame.state.request.settings.seed;
   if (ImGui::DragScalar("##seed", ImGuiDataType_U64, &seed, 0.05f)) {
@@ -191,7 +183,7 @@ void draw_frame_slider(LabFrame& frame, float width) {
   Playback& playback = frame.state.playback;
   Ui& ui = frame.ui;
   const float start = ImGui::GetCursorScreenPos().x;
-  label(ui, "frame");
+  leading_label(ui, "frame");
   const float text =
       std::max(ui.px(52.0f), text_width(ui.body, frame_text(playback)) + ui.px(8.0f));
   std::uint32_t last = std::max(playback.furthest(), playback.shown());
@@ -214,7 +206,7 @@ void draw_frame_slider(LabFrame& frame, float width) {
 void draw_target(LabFrame& frame, float width) {
   Playback& playback = frame.state.playback;
   const float start = ImGui::GetCursorScreenPos().x;
-  label(frame.ui, "to");
+  leading_label(frame.ui, "to");
   width -= ImGui::GetCursorScreenPos().x - start;
   const auto text = [](std::uint32_t target) {
     return target == Playback::no_end ? std::string("∞") : fmt::format("{}", target);
@@ -231,73 +223,6 @@ void draw_target(LabFrame& frame, float width) {
     return changed;
   });
   tooltip(frame.ui, "Frames to play: 15 as in the report, ∞ to go on until you pause");
-}
-
-void draw_exposure(LabFrame& frame, float width) {
-  float& exposure = frame.state.view.exposure;
-  const float start = ImGui::GetCursorScreenPos().x;
-  // "+0.5 EV" says what it is where the room is short.
-  if (width > frame.ui.px(160.0f)) {
-    label(frame.ui, "exposure");
-  }
-  const float field = frame.ui.px(54.0f);
-  width -= ImGui::GetCursorScreenPos().x - start + field;
-  slider(frame.ui, "exposure", exposure, {-8.0f, 8.0f}, width, palette::text);
-  tooltip(frame.ui, "In stops  (E, Shift+E; N sets it to the picture)");
-  ImGui::SameLine(0.0f, 0.0f);
-  number_field(frame.ui, "exposure.number", exposure, -100.0f, 100.0f, "%+.1f EV", field);
-}
-
-void draw_tone_map(LabFrame& frame, float width) {
-  ToneMap& tone_map = frame.state.view.tone_map;
-  combo(frame.ui, "tone_map", std::string(tone_map_row(tone_map).label), width, [&] {
-    bool changed = false;
-    for (const ToneMapRow& row : tone_maps()) {
-      if (combo_row(frame.ui, fmt::format("tone_map.{}", row.id), std::string(row.label),
-                    row.key == tone_map, std::string(row.source))) {
-        tone_map = row.key;
-        changed = true;
-      }
-    }
-    return changed;
-  });
-  tooltip(frame.ui, "Tone map  (T)");
-}
-
-std::string heat_label(HeatRange heat) {
-  return heat == HeatRange::linked ? "heat: linked" : "heat: report";
-}
-
-void draw_heat(LabFrame& frame, float width) {
-  HeatRange& heat = frame.state.view.heat;
-  const bool linked = heat == HeatRange::linked;
-  combo(frame.ui, "heat", heat_label(heat), width, [&] {
-    const bool to_linked =
-        combo_row(frame.ui, "heat.linked", "linked: 0 to the highest of all lanes", linked);
-    const bool to_report = combo_row(frame.ui, "heat.report",
-                                     "report: lowest to highest of each, blue-green-red", !linked);
-    heat = to_linked ? HeatRange::linked : to_report ? HeatRange::report : heat;
-    return to_linked || to_report;
-  });
-  tooltip(frame.ui, "Scale of samples per pixel  (G)");
-}
-
-constexpr std::array layout_names{"columns", "2 × 2", "one large"};
-
-void draw_layout(LabFrame& frame, float width) {
-  LabLayout& layout = frame.state.layout;
-  combo(frame.ui, "layout", layout_names[std::size_t(layout)], width, [&] {
-    bool changed = false;
-    for (std::size_t i = 0; i < layout_names.size(); ++i) {
-      if (combo_row(frame.ui, fmt::format("layout.{}", i), layout_names[i],
-                    std::size_t(layout) == i)) {
-        layout = LabLayout(i);
-        changed = true;
-      }
-    }
-    return changed;
-  });
-  tooltip(frame.ui, "Layout  (L)");
 }
 
 void draw_export(LabFrame& frame, float width) {
@@ -341,8 +266,8 @@ std::vector<Item> items(const LabFrame& frame, bool compact) {
       {combo_width(ui, compact ? std::string(tone_map_row(state.view.tone_map).label) : "Reinhard"),
        draw_tone_map},
       {combo_width(ui, compact ? heat_label(state.view.heat) : "heat: report"), draw_heat},
-      {combo_width(ui, compact ? layout_names[std::size_t(state.layout)] : "one large"),
-       draw_layout, false, true},
+      {combo_width(ui, compact ? layout_label(state.layout) : "one large"), draw_layout, false,
+       true},
       {text_width(ui.body, "Export…") + ui.px(22.0f), draw_export},
       {ui.px(26.0f), draw_help_button},
   };

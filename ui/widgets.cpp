@@ -166,6 +166,15 @@ bool combo_row(Ui& ui, const std::string& name, const std::string& label, bool c
   return pressed;
 }
 
+float leading_label(const Ui& ui, const std::string& text) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  text_at(ui.body, at.x, at.y + 0.5f * (ImGui::GetFrameHeight() - font_size(ui.body)), palette::dim,
+          text);
+  const float width = text_width(ui.body, text) + ui.px(6.0f);
+  ImGui::SetCursorScreenPos({at.x + width, at.y});
+  return width;
+}
+
 void tooltip(const Ui& ui, const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || text.empty()) {
     return;

@@ -43,6 +43,10 @@ bool combo_row(Ui& ui, const std::string& name, const std::string& label, bool c
 /// Of the last item, wrapped, after a moment.
 void tooltip(const Ui& ui, const std::string& text);
 
+/// Dim text before a control, level with what stands in it; moves the cursor past it and returns by
+/// how much.
+float leading_label(const Ui& ui, const std::string& text);
+
 /// The first of the texts that is no wider than `width`; the last where none is.
 std::string fitting_text(ImFont* font, std::initializer_list<std::string> texts, float width);
 float text_width(ImFont* font, const std::string& text);
