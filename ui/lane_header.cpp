@@ -75,22 +75,32 @@ bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) 
   return chosen;
 }
 
+float policy_combo_width(const Ui& ui) {
+  float widest = 0.0f;
+  for (const AllocationRow& row : allocations()) {
+    widest = std::max(widest, text_width(ui.body, std::string(row.label)));
+  }
+  return widest + ui.px(24.0f) + ImGui::GetFrameHeight();
+}
+
+/// Nothing for a policy without votes to multiply.
 bool edit_multiplier(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRect box) {
+  if (policy.allocation.kind != AllocationId::vote) {
+    return false;
+  }
   const float field = ui.px(40.0f);
   const float gap = ui.px(4.0f);
   text_at(ui.body, box.x, box.y + ui.px(4.0f), palette::dim, "×");
   ImGui::SetCursorScreenPos({box.x + ui.px(14.0f), box.y});
   float& value = policy.allocation.multiplier;
-  ImGui::BeginDisabled(policy.allocation.kind != AllocationId::vote);
   bool changed = slider(ui, lane_name(lane, "multiplier"), value, {0.0f, 2.0f},
                         box.width - field - gap - ui.px(14.0f), lane_color(lane));
   tooltip(ui,
           "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 its "
-          "pictures. Of the policy vote alone.");
+          "pictures.");
   ImGui::SetCursorScreenPos({box.right() - field, box.y});
   changed |=
       number_field(ui, lane_name(lane, "multiplier.number"), value, 0.0f, 1000.0f, "%.2f", field);
-  ImGui::EndDisabled();
   return changed;
 }
 
@@ -235,7 +245,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   const float gap = ui.px(8.0f);
   const float row = row_height(ui);
   const float mean_width = ui.px(76.0f);
-  const float policy_width = text_width(ui.body, "vote") + ui.px(24.0f) + ImGui::GetFrameHeight();
+  const float policy_width = policy_combo_width(ui);
   const float estimator_width =
       text_width(ui.body, "√ Kullback–Leibler") + ui.px(20.0f) + ImGui::GetFrameHeight();
   ScreenRect first = box.cut_top(row);
