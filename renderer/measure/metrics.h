@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "renderer/image/image.h"
+
+namespace quartet {
+
+enum class MetricId { mse, rmse, relmse, relmse_trimmed, mape, smape, psnr, flip };
+
+/// One row of the table of metrics: how far a picture is from a reference, as one number. Chart
+/// axes, command line, file columns and tests walk the table. x is the test, r the reference, both
+/// linear radiance; each mean is over all pixels and channels.
+struct Metric {
+  MetricId key;
+  std::string_view id;          ///< on the command line and in files
+  std::string_view label;       ///< for people
+  std::string_view unit;        ///< empty for pure numbers
+  std::string_view definition;  ///< with its constants
+  bool higher_is_better;
+  bool quadratic;  ///< falls as 1/samples: a line of slope −1 in a log–log chart
+  /// The metric. Does not depend on the number of threads; runs on those of the current TBB arena.
+  /// Throws std::invalid_argument if the sizes differ, a picture is empty, or a pixel that is not
+  /// finite makes the metric meaningless (with its place).
+  double (*compute)(const RadianceImage& test, const RadianceImage& reference);
+  /// Where the error is: a number a pixel, whose mean is the metric, or from whose mean the metric
+  /// is made (rmse: its root; psnr: its decibels; relmse_trimmed: without the largest). Throws as
+  /// above.
+  ScalarImage (*map)(const RadianceImage& test, const RadianceImage& reference);
+  std::string_view map_quantity;  ///< what `map` holds, with its unit
+};
+
+std::span<const Metric> metrics();
+const Metric& metric(MetricId key);
+/// Throws std::invalid_argument that lists the legal ids.
+const Metric& find_metric(std::string_view id);
+
+/// Error that a second buys: 1/(mse · seconds). Does not depend on how long a method ran, as long
+/// as its error falls as 1/samples. Infinite where either is 0.
+double efficiency(double mse, double seconds);
+
+/// Throws std::invalid_argument unless both pictures have the same size, and some.
+void require_same_size(const RadianceImage& test, const RadianceImage& reference);
+/// Throws std::invalid_argument with the place of the first pixel that is NaN or infinite; `what`
+/// names the picture.
+void require_finite(const RadianceImage& image, std::string_view what);
+
+}  // namespace quartet
