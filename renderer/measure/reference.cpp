@@ -1,0 +1,100 @@
+#include "renderer/measure/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "renderer/image/exr.h"
+#include "renderer/measure/reference_sums.h"
+
+namespace quartet {
+
+namespace {
+
+std::string depth_text(int max_depth) {
+  return max_depth == std::numeric_limits<int>::max() ? "unlimited depth"
+                                                      : fmt::format("depth {}", max_depth);
+}
+
+/// Why the reference is not of this run; empty if nothing speaks against it.
+std::string mismatch(const Reference& reference, const Scene& scene,
+                     const RenderSettings& settings) {
+  const RenderSettings& made = reference.settings;
+  if (made.width != settings.width || made.height != settings.height) {
+    return fmt::format("it has {}x{} pixels, the run has {}x{}", made.width, made.height,
+                       settings.width, settings.height);
+  }
+  if (!reference.ours()) {
+    return "";
+  }
+  const std::string hash = scene_hash(scene);
+  if (reference.scene_hash != hash) {
+    return fmt::format("it shows '{}' as of hash {}, the run shows '{}' of hash {}",
+                       reference.scene_name, reference.scene_hash, scene.name, hash);
+  }
+  if (made.camera != settings.camera) {
+    return "it was seen by another camera";
+  }
+  if (made.max_depth != settings.max_depth) {
+    return fmt::format("it was made with {}, the run has {}", depth_text(made.max_depth),
+                       depth_text(settings.max_depth));
+  }
+  const auto seeds = half_seeds(made.seed);
+  if (std::ranges::find(seeds, settings.seed) != seeds.end()) {
+    return fmt::format(
+        "it is made of the same random numbers as the run, seed {}, and would call their noise "
+        "right",
+        settings.seed);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed) {
+  return {seed, seed ^ 0x9e3779b97f4a7c15u};
+}
+
+double Reference::noise_floor(MetricId id) const {
+  if (halves[0].empty() || spp < 2) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  RadianceImage off = image;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    off.pixels()[i] += 0.5f * (halves[0].pixels()[i] - halves[1].pixels()[i]);
+  }
+  return metric(id).compute(off, image);
+}
+
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path) {
+  const ExrImage exr = read_exr(path);
+  Reference reference;
+  if (const std::optional<ReferenceSums> sums = sums_of(exr, path)) {
+    reference = reference_of(*sums);
+  } else {
+    reference.image = radiance_of(exr, path);
+    reference.settings.width = reference.image.width();
+    reference.settings.height = reference.image.height();
+  }
+  reference.path = path;
+  try {
+    require_finite(reference.image, path.string());
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(error.what());
+  }
+  return std::make_shared<const Reference>(std::move(reference));
+}
+
+void check_reference(const Reference& reference, const Scene& scene,
+                     const RenderSettings& settings) {
+  if (const std::string reason = mismatch(reference, scene, settings); !reason.empty()) {
+    throw std::runtime_error(fmt::format("the reference{}{} does not fit: {}",
+                                         reference.path.empty() ? "" : " ", reference.path.string(),
+                                         reason));
+  }
+}
+
+}  // namespace quartet

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "renderer/image/image.h"
+#include "renderer/measure/metrics.h"
+#include "renderer/measure/scene_hash.h"
+#include "renderer/trace/integrator.h"
+
+namespace quartet {
+
+/// The seed of a reference if no other is asked for. Not 0, that of experiments: a reference made
+/// of the samples that it judges would call their noise right.
+inline constexpr std::uint64_t reference_seed = 0x5265666572656e63;  // "Referenc"
+
+/// The seeds of the two halves of a reference.
+std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed);
+
+/// The truth that pictures are compared with: a uniform picture of many samples, in two halves that
+/// know nothing of each other, or somebody else's picture.
+struct Reference {
+  std::filesystem::path path;  ///< where it was read from, may be empty
+  RadianceImage image;
+  /// The pictures of samples of one seed each; their mean is `image`. Empty for a picture of
+  /// another program.
+  std::array<RadianceImage, 2> halves;
+  std::uint64_t spp = 0;       ///< of both halves together; 0 if not known
+  std::uint64_t rejected = 0;  ///< samples that were negative or not finite, of all pixels
+  RenderSettings settings;     ///< only width and height for a picture of another program
+  std::string scene_name;
+  std::string scene_hash;  ///< empty for a picture of another program
+
+  /// Whether it can be said of which scene it is.
+  bool ours() const { return !scene_hash.empty(); }
+
+  /// What a metric says of a picture that is right, because the reference is not: the metric of a
+  /// picture that is off from the reference by half the difference of the two halves, which has the
+  /// variance of the reference itself. For mse that is the mean squared difference of the halves
+  /// over 4. Errors below it mean nothing (psnr: above it). NaN if there are no halves.
+  double noise_floor(MetricId id) const;
+};
+
+/// Reads a reference that ReferenceRender wrote, or any EXR with R, G and B. Throws
+/// std::runtime_error that names the path and what is wrong, also where a pixel is not finite.
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path);
+
+/// Throws std::runtime_error with the reason if the reference does not show what a run with these
+/// settings renders (scene, size, camera, depth), or is made of the same random numbers. Of another
+/// program's picture only the size is known. The integrator may differ: all have the same mean.
+void check_reference(const Reference& reference, const Scene& scene,
+                     const RenderSettings& settings);
+
+}  // namespace quartet

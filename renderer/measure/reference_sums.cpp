@@ -1,0 +1,253 @@
+#include "renderer/measure/reference_sums.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "renderer/version.h"
+
+namespace quartet {
+
+namespace {
+
+constexpr std::string_view kKind = "uniform reference of two independent halves";
+constexpr std::array kChannels{"R", "G", "B"};
+constexpr std::array<std::string_view, 5> kFovAxes{"x", "y", "diagonal", "smaller", "larger"};
+
+std::string sum_channel(std::size_t half, int channel, std::string_view word) {
+  return fmt::format("Half{}.{}.{}", half, kChannels[std::size_t(channel)], word);
+}
+
+std::string rejected_channel(std::size_t half) {
+  return fmt::format("Half{}.Rejected", half);
+}
+
+// A camera as words, each with its numbers: shortest decimals that read back to the same float.
+
+std::string text_of(glm::vec3 v) {
+  return fmt::format("{} {} {}", v.x, v.y, v.z);
+}
+
+std::string text_of(const Camera& camera) {
+  return fmt::format("origin {} right {} up {} forward {} fov {} {} aperture {} focus {}",
+                     text_of(camera.origin), text_of(camera.right), text_of(camera.up),
+                     text_of(camera.forward), camera.fov, kFovAxes[std::size_t(camera.fov_axis)],
+                     camera.aperture_radius, camera.focus_distance);
+}
+
+/// Reads the header of a reference; each function throws std::runtime_error that says what is
+/// wrong.
+class Header {
+ public:
+  Header(const ExrImage& exr, std::filesystem::path path) : exr_(exr), path_(std::move(path)) {}
+
+  const std::string& text(const std::string& name) const {
+    const auto it = exr_.attributes.find(name);
+    if (it == exr_.attributes.end()) {
+      fail(fmt::format("its header has no '{}'", name));
+    }
+    return it->second;
+  }
+
+  template <class T>
+  T number(const std::string& name) const {
+    const std::string& digits = text(name);
+    T value{};
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || end != digits.data() + digits.size()) {
+      fail(fmt::format("'{}' in its header is no number of '{}'", digits, name));
+    }
+    return value;
+  }
+
+  Camera camera() const {
+    std::istringstream in(text("camera"));
+    in.imbue(std::locale::classic());
+    const auto word = [&](std::string_view expected) {
+      std::string found;
+      in >> found;
+      if (found != expected) {
+        in.setstate(std::ios::failbit);
+      }
+    };
+    const auto vector = [&](glm::vec3& v) { in >> v.x >> v.y >> v.z; };
+    Camera camera;
+    std::string axis;
+    word("origin"), vector(camera.origin);
+    word("right"), vector(camera.right);
+    word("up"), vector(camera.up);
+    word("forward"), vector(camera.forward);
+    word("fov"), in >> camera.fov >> axis;
+    word("aperture"), in >> camera.aperture_radius;
+    word("focus"), in >> camera.focus_distance;
+    const auto* const known = std::ranges::find(kFovAxes, axis);
+    if (!in || known == kFovAxes.end()) {
+      fail(fmt::format("'{}' in its header is no camera", text("camera")));
+    }
+    camera.fov_axis = FovAxis(known - kFovAxes.begin());
+    return camera;
+  }
+
+  const std::vector<std::uint32_t>& words(const std::string& name) const {
+    const ExrChannel* channel = exr_.find(name);
+    if (channel == nullptr ||
+        !std::holds_alternative<std::vector<std::uint32_t>>(channel->pixels)) {
+      fail(fmt::format("it has no channel {} of integers", name));
+    }
+    return std::get<std::vector<std::uint32_t>>(channel->pixels);
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw std::runtime_error(
+        fmt::format("{} is a damaged reference: {}; make it anew", path_.string(), reason));
+  }
+
+ private:
+  const ExrImage& exr_;
+  std::filesystem::path path_;
+};
+
+void add_half(const ReferenceSums& sums, std::size_t half, ExrImage& exr) {
+  const auto& from = sums.halves[half];
+  const std::size_t pixels = from.sums.size();
+  for (int c = 0; c < 3; ++c) {
+    std::vector<std::uint32_t> high(pixels);
+    std::vector<std::uint32_t> low(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const auto bits = std::bit_cast<std::uint64_t>(from.sums[i][c]);
+      high[i] = std::uint32_t(bits >> 32);
+      low[i] = std::uint32_t(bits);
+    }
+    exr.add(sum_channel(half, c, "high"), std::move(high));
+    exr.add(sum_channel(half, c, "low"), std::move(low));
+  }
+  exr.add(rejected_channel(half), from.rejected);
+}
+
+ReferenceSums::Half half_of(const Header& header, std::size_t half, std::size_t pixels) {
+  ReferenceSums::Half result;
+  result.sums.resize(pixels);
+  for (int c = 0; c < 3; ++c) {
+    const auto& high = header.words(sum_channel(half, c, "high"));
+    const auto& low = header.words(sum_channel(half, c, "low"));
+    for (std::size_t i = 0; i < pixels; ++i) {
+      result.sums[i][c] = std::bit_cast<double>(std::uint64_t(high[i]) << 32 | low[i]);
+    }
+  }
+  result.rejected = header.words(rejected_channel(half));
+  return result;
+}
+
+std::string noise_floor_text(const Reference& reference) {
+  std::string text;
+  for (const Metric& row : metrics()) {
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", row.id,
+                        reference.noise_floor(row.key));
+  }
+  return text;
+}
+
+/// The mean of what is in the film, 0 if nothing is.
+glm::vec3 mean_of(const glm::dvec3& sum, std::uint64_t samples, std::uint64_t rejected) {
+  return samples > rejected ? glm::vec3(sum / double(samples - rejected)) : glm::vec3(0.0f);
+}
+
+}  // namespace
+
+Reference reference_of(const ReferenceSums& sums) {
+  const RenderSettings& settings = sums.settings;
+  Reference reference;
+  reference.spp = sums.spp;
+  reference.settings = settings;
+  reference.scene_name = sums.scene_name;
+  reference.scene_hash = sums.scene_hash;
+  reference.image = RadianceImage(settings.width, settings.height);
+  reference.halves.fill(reference.image);
+  const auto& [first, second] = sums.halves;
+  for (std::size_t i = 0; i < reference.image.size(); ++i) {
+    const std::uint64_t rejected = std::uint64_t(first.rejected[i]) + second.rejected[i];
+    reference.rejected += rejected;
+    reference.image.pixels()[i] = mean_of(first.sums[i] + second.sums[i], sums.spp, rejected);
+    for (std::size_t half = 0; half < 2; ++half) {
+      reference.halves[half].pixels()[i] =
+          mean_of(sums.halves[half].sums[i], sums.samples_of(half), sums.halves[half].rejected[i]);
+    }
+  }
+  return reference;
+}
+
+ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line) {
+  const RenderSettings& settings = sums.settings;
+  const Reference reference = reference_of(sums);
+  const std::size_t pixels = reference.image.size();
+  ExrImage exr(settings.width, settings.height);
+  exr.add_radiance(reference.image);
+  std::vector<std::uint32_t> rejected(pixels);
+  std::vector<std::uint32_t> in_mean(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    rejected[i] = sums.halves[0].rejected[i] + sums.halves[1].rejected[i];
+    in_mean[i] = std::uint32_t(sums.spp) - rejected[i];
+  }
+  exr.add("SampleCount", std::move(in_mean));
+  exr.add("Rejected", std::move(rejected));
+  add_half(sums, 0, exr);
+  add_half(sums, 1, exr);
+  exr.attributes = {
+      {"reference", std::string(kKind)},
+      {"scene", sums.scene_name},
+      {"sceneHash", sums.scene_hash},
+      {"camera", text_of(settings.camera)},
+      {"integrator", std::string(integrator(settings.integrator).id)},
+      {"maxDepth",
+       std::to_string(settings.max_depth == std::numeric_limits<int>::max() ? -1
+                                                                            : settings.max_depth)},
+      {"seed", std::to_string(settings.seed)},
+      {"spp", std::to_string(sums.spp)},
+      {"seconds", fmt::format("{:.6g}", sums.seconds)},
+      {"noiseFloor", noise_floor_text(reference)},
+      {"version", std::string(version())},
+      {"commandLine", command_line},
+  };
+  return exr;
+}
+
+std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem::path& path) {
+  const auto kind = exr.attributes.find("reference");
+  if (kind == exr.attributes.end() || kind->second != kKind) {
+    return std::nullopt;
+  }
+  const Header header(exr, path);
+  ReferenceSums sums;
+  sums.scene_name = header.text("scene");
+  sums.scene_hash = header.text("sceneHash");
+  sums.spp = header.number<std::uint64_t>("spp");
+  sums.seconds = header.number<double>("seconds");
+  RenderSettings& settings = sums.settings;
+  settings.camera = header.camera();
+  settings.width = exr.width();
+  settings.height = exr.height();
+  settings.seed = header.number<std::uint64_t>("seed");
+  const int depth = header.number<int>("maxDepth");
+  settings.max_depth = depth < 0 ? std::numeric_limits<int>::max() : depth;
+  try {
+    settings.integrator = find_integrator(header.text("integrator")).key;
+  } catch (const std::invalid_argument& error) {
+    header.fail(error.what());
+  }
+  const std::size_t pixels = std::size_t(exr.width()) * std::size_t(exr.height());
+  for (std::size_t half = 0; half < 2; ++half) {
+    sums.halves[half] = half_of(header, half, pixels);
+  }
+  return sums;
+}
+
+}  // namespace quartet

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/image/exr.h"
+#include "renderer/measure/reference.h"
+
+namespace quartet {
+
+/// What a reference is made of, and what its file holds: for each pixel the sums of two halves of
+/// its samples.
+struct ReferenceSums {
+  struct Half {
+    std::vector<glm::dvec3> sums;         ///< of samples (linear radiance), without rejected ones
+    std::vector<std::uint32_t> rejected;  ///< negative or not finite
+    bool operator==(const Half&) const = default;
+  };
+
+  std::string scene_name;
+  std::string scene_hash;
+  RenderSettings settings;
+  std::uint64_t spp = 0;  ///< of both halves together
+  double seconds = 0.0;   ///< wall-clock, that they took
+  std::array<Half, 2> halves;
+
+  /// Samples of each pixel in a half, the rejected ones included.
+  std::uint64_t samples_of(std::size_t half) const { return (spp + 1 - half) / 2; }
+};
+
+/// The pictures that the sums make.
+Reference reference_of(const ReferenceSums& sums);
+
+/// R, G, B, SampleCount and Rejected as in other files of ours, and Half0 and Half1: the doubles of
+/// the sums as two integers each (high and low word), so that they come back to the bit.
+ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line);
+
+/// What exr_of() wrote; nothing if the picture, read from `path`, is not one of those. Throws
+/// std::runtime_error if it is, but damaged.
+std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem::path& path);
+
+}  // namespace quartet
