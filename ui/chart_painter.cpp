@@ -81,6 +81,48 @@ void draw_ticks(const Ui& ui, const Mapping& map, const ScreenRect& box) {
   }
 }
 
+/// Dashes along a polyline, which go on around its corners.
+void draw_dashes(const Ui& ui, const std::vector<ImVec2>& points, ImU32 color) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float period = ui.px(8.0f);
+  const float dash = ui.px(5.0f);
+  float phase = 0.0f;  // since a dash began
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const ImVec2 a = points[i];
+    const ImVec2 b = points[i + 1];
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    const auto at = [&](float share) {
+      return ImVec2(a.x + (b.x - a.x) * share / length, a.y + (b.y - a.y) * share / length);
+    };
+    for (float begin = -phase; begin < length; begin += period) {
+      const float end = std::min(begin + dash, length);
+      if (end > 0.0f) {
+        list.AddLine(at(std::max(begin, 0.0f)), at(end), color, ui.px(1.5f));
+      }
+    }
+    phase = std::fmod(phase + length, period);
+  }
+}
+
+void draw_mark(const Ui& ui, ImVec2 at, const PointMark& mark) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 color = screen_color(mark.color);
+  const float r = ui.px(4.5f);
+  switch (mark.shape) {
+    case MarkShape::dot:
+      list.AddCircleFilled(at, r, color);
+      break;
+    case MarkShape::diamond:
+      list.AddQuadFilled({at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y},
+                         color);
+      break;
+    case MarkShape::cross:
+      list.AddLine({at.x - r, at.y - r}, {at.x + r, at.y + r}, color, ui.px(1.5f));
+      list.AddLine({at.x - r, at.y + r}, {at.x + r, at.y - r}, color, ui.px(1.5f));
+      break;
+  }
+}
+
 void draw_data(const Ui& ui, const Mapping& map) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ScreenRect& area = map.area;
@@ -99,13 +141,39 @@ void draw_data(const Ui& ui, const Mapping& map) {
       list.AddRectFilled({left, top}, {right - gap, area.bottom()}, screen_color(bar.color));
     }
   }
+  for (const Band& band : map.chart.bands) {
+    for (std::size_t i = 0; i + 1 < band.lower.size(); ++i) {
+      const auto at = [&](const glm::dvec2& p) { return ImVec2(map.x(p.x), map.y(p.y)); };
+      list.AddQuadFilled(at(band.lower[i]), at(band.lower[i + 1]), at(band.upper[i + 1]),
+                         at(band.upper[i]), screen_color(band.color));
+    }
+  }
+  for (const Level& level : map.chart.levels) {
+    const float y = map.y(level.value);
+    draw_dashes(ui, {{area.x, y}, {area.right(), y}}, screen_color(level.color));
+    text_at(ui.small, area.x + ui.px(4.0f), y - font_size(ui.small), screen_color(level.color),
+            level.label);
+  }
   std::vector<ImVec2> points;
   for (const Line& line : map.chart.lines) {
+    const ImU32 color = screen_color(line.color);
     points.clear();
     for (const glm::dvec2& point : line.points) {
       points.emplace_back(map.x(point.x), map.y(point.y));
     }
-    list.AddPolyline(points.data(), int(points.size()), screen_color(line.color), 0, ui.px(1.5f));
+    if (line.dashed) {
+      draw_dashes(ui, points, color);
+    } else {
+      list.AddPolyline(points.data(), int(points.size()), color, 0, ui.px(1.5f));
+    }
+    if (line.dots) {
+      for (const ImVec2& point : points) {
+        list.AddCircleFilled(point, ui.px(2.5f), color);
+      }
+    }
+  }
+  for (const PointMark& mark : map.chart.marks) {
+    draw_mark(ui, {map.x(mark.at.x), map.y(mark.at.y)}, mark);
   }
 }
 

@@ -1,41 +1,28 @@
 #include "ui/figure.h"
 
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
 
-#include "renderer/image/file_writer.h"
-#include "renderer/image/png.h"
+#include "ui/cairo_page.h"
 #include "ui/figure_layout.h"
-#include "ui/figure_text.h"
 
 namespace quartet {
 
 namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-using Cairo = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
-
-constexpr double kPdfLinePoints = 7.0;  // a paper's caption, at the size of the panels' lines
-constexpr int kMaxCairoSide = 32767;
-
-Surface owned(cairo_surface_t* surface) {
-  return {surface, cairo_surface_destroy};
-}
 
 std::uint32_t over_white(std::uint8_t value, std::uint8_t alpha) {
   return static_cast<std::uint32_t>(255 + (int(value) - 255) * int(alpha) / 255);
 }
 
 Surface surface_of(const DisplayImage& image) {
-  Surface surface =
-      owned(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width(), image.height()));
+  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width(), image.height()),
+                  cairo_surface_destroy);
   if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
     throw std::runtime_error(
         fmt::format("a picture of {}x{} is too large for a figure; at most {}x{} would be right",
@@ -78,16 +65,7 @@ void paint_colors(cairo_t* cairo, const PlacedColors& bar) {
   paint_image(cairo, colors, bar.box);
 }
 
-void paint_text(cairo_t* cairo, const PlacedText& text) {
-  select_font(cairo, text.style);
-  cairo_set_source_rgb(cairo, text.style.gray, text.style.gray, text.style.gray);
-  cairo_move_to(cairo, text.box.x, text.baseline);
-  cairo_show_text(cairo, text.text.c_str());
-}
-
 void paint(cairo_t* cairo, const FigureLayout& layout) {
-  cairo_set_source_rgb(cairo, 1, 1, 1);
-  cairo_paint(cairo);
   for (const PlacedImage& image : layout.images) {
     // A hairline around it, so that a white picture has an edge on white paper.
     cairo_set_source_rgb(cairo, 0.8, 0.8, 0.8);
@@ -113,95 +91,24 @@ void paint(cairo_t* cairo, const FigureLayout& layout) {
   }
 }
 
-DisplayImage image_of(cairo_surface_t* surface) {
-  cairo_surface_flush(surface);
-  DisplayImage image(cairo_image_surface_get_width(surface),
-                     cairo_image_surface_get_height(surface));
-  const unsigned char* data = cairo_image_surface_get_data(surface);
-  const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; y < image.height(); ++y) {
-    const auto* row = reinterpret_cast<const std::uint32_t*>(data + y * stride);
-    for (int x = 0; x < image.width(); ++x) {
-      const auto byte = [&](int shift) { return static_cast<std::uint8_t>(row[x] >> shift); };
-      image.at(x, y) = {byte(16), byte(8), byte(0), 255};
-    }
-  }
-  return image;
-}
-
-/// Cairo is C: an exception must not pass through it. FileWriter keeps the error for close().
-cairo_status_t write_bytes(void* file, const unsigned char* bytes, unsigned size) {
-  try {
-    static_cast<FileWriter*>(file)->write(bytes, size);
-    return CAIRO_STATUS_SUCCESS;
-  } catch (const std::exception&) {
-    return CAIRO_STATUS_WRITE_ERROR;
-  }
-}
-
-using CreateSurface = cairo_surface_t* (*)(cairo_write_func_t, void*, double, double);
-
-/// PDF or SVG, in points.
-template <class Prepare>
-void write_vector(const Figure& figure, const std::filesystem::path& path, CreateSurface create,
-                  Prepare prepare) {
+CairoPage page_of(const Figure& figure) {
   const FigureLayout layout = lay_out(figure);
-  const double points = kPdfLinePoints / layout.line_size;
-  FileWriter file(path);
-  const Surface surface =
-      owned(create(write_bytes, &file, layout.width * points, layout.height * points));
-  prepare(surface.get());
-  const Cairo cairo(cairo_create(surface.get()), cairo_destroy);
-  cairo_scale(cairo.get(), points, points);
-  try {
-    paint(cairo.get(), layout);
-  } catch (const std::runtime_error& error) {
-    file.fail(error.what());
-  }
-  const cairo_status_t painted = cairo_status(cairo.get());
-  cairo_surface_finish(surface.get());
-  const cairo_status_t finished = cairo_surface_status(surface.get());
-  for (const cairo_status_t status : {painted, finished}) {
-    if (status != CAIRO_STATUS_SUCCESS) {
-      file.fail(cairo_status_to_string(status));
-    }
-  }
-  file.close();
+  return {layout.width, layout.height, layout.line_size, figure.title,
+          [layout](cairo_t* cairo) { paint(cairo, layout); }};
 }
 
 }  // namespace
 
 void write_figure_png(const Figure& figure, const std::filesystem::path& path) {
-  const FigureLayout layout = lay_out(figure);
-  if (layout.width > kMaxCairoSide || layout.height > kMaxCairoSide) {
-    throw std::runtime_error(fmt::format(
-        "cannot write {}: a figure of {:.0f}x{:.0f} pixels is too large; smaller panels, so that "
-        "it stays within {}x{}, would be right",
-        path.string(), layout.width, layout.height, kMaxCairoSide, kMaxCairoSide));
-  }
-  const Surface surface = owned(cairo_image_surface_create(
-      CAIRO_FORMAT_RGB24, static_cast<int>(layout.width), static_cast<int>(layout.height)));
-  const Cairo cairo(cairo_create(surface.get()), cairo_destroy);
-  paint(cairo.get(), layout);
-  if (const cairo_status_t status = cairo_status(cairo.get()); status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(
-        fmt::format("cannot write {}: {}", path.string(), cairo_status_to_string(status)));
-  }
-  write_png(path, image_of(surface.get()));
+  write_page_png(page_of(figure), path);
 }
 
 void write_figure_pdf(const Figure& figure, const std::filesystem::path& path) {
-  write_vector(figure, path, cairo_pdf_surface_create_for_stream, [&](cairo_surface_t* surface) {
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE,
-                                   clean_text(figure.title).c_str());
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "quartet");
-    // Cairo would put the time of writing here, and the same figure would give other bytes.
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
-  });
+  write_page_pdf(page_of(figure), path);
 }
 
 void write_figure_svg(const Figure& figure, const std::filesystem::path& path) {
-  write_vector(figure, path, cairo_svg_surface_create_for_stream, [](cairo_surface_t*) {});
+  write_page_svg(page_of(figure), path);
 }
 
 }  // namespace quartet

@@ -34,10 +34,40 @@ struct Bar {
   Rgba8 color;
 };
 
+/// A curve through points. Between them it is straight on the axes as they are spaced.
 struct Line {
-  std::string label;  ///< may be empty
+  std::string label;  ///< may be empty; else it stands in the legend
   Rgba8 color;
   std::vector<glm::dvec2> points;
+  bool dashed = false;
+  bool dots = false;  ///< a dot at each point: what was measured
+  int id = -1;        ///< whose line it is, such as a lane's number; -1: nobody's
+};
+
+/// The area between two curves, such as a line's spread over seeds: that of the quadrilaterals
+/// between each pair of points and the next.
+struct Band {
+  std::string label;  ///< may be empty; else it stands in the legend
+  Rgba8 color;        ///< mostly transparent
+  std::vector<glm::dvec2> lower;
+  std::vector<glm::dvec2> upper;  ///< as many points
+};
+
+enum class MarkShape { dot, diamond, cross };
+
+/// A single point, such as where on a curve the default threshold lies.
+struct PointMark {
+  std::string label;  ///< may be empty; else it stands in the legend, once for all that share it
+  Rgba8 color;
+  glm::dvec2 at{0.0};
+  MarkShape shape = MarkShape::diamond;
+};
+
+/// A horizontal line across the whole chart, such as a noise floor.
+struct Level {
+  std::string label;  ///< what it is, with its value
+  Rgba8 color;
+  double value = 0.0;
 };
 
 /// The background of [begin, end] of the horizontal axis.
@@ -69,9 +99,12 @@ struct Chart {
   std::string title;
   Axis x;
   Axis y;
-  std::vector<Shade> shades;  ///< furthest back; then bars, lines, markers, texts
+  std::vector<Shade> shades;  ///< furthest back; the others follow in this order
   std::vector<Bar> bars;
+  std::vector<Band> bands;
+  std::vector<Level> levels;
   std::vector<Line> lines;
+  std::vector<PointMark> marks;
   std::vector<Marker> markers;
   std::vector<ChartText> texts;
 };
@@ -86,5 +119,9 @@ const Marker* marker_near(const Chart& chart, double position, double reach);
 Axis linear_axis(double min, double max, std::string label, int wanted_ticks);
 /// A logarithmic axis over [10^first, 10^last], with a tick a power of ten.
 Axis decade_axis(int first, int last, std::string label);
+/// A logarithmic axis that holds [min, max]: from and to 1, 2 or 5 times a power of ten, so that it
+/// stands still while data grow, with about so many ticks. [0.1, 1] where there is no positive and
+/// finite range.
+Axis log_axis(double min, double max, std::string label, int wanted_ticks);
 
 }  // namespace quartet

@@ -33,6 +33,20 @@ double step_for(double min, double max, int wanted) {
   return nice_step((max - min) / std::max(1, wanted));
 }
 
+/// digit · 10^exponent: 0.02, 0.1, 50, and 10⁻³, 5·10⁴ and so on beyond them.
+std::string scientific_label(int digit, int exponent) {
+  constexpr std::array superscripts{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  if (std::abs(exponent) <= 2) {
+    return format_number(digit * std::pow(10.0, exponent));
+  }
+  std::string label = digit == 1 ? "10" : fmt::format("{}·10", digit);
+  label += exponent < 0 ? "⁻" : "";
+  for (const char figure : std::to_string(std::abs(exponent))) {
+    label += superscripts[static_cast<std::size_t>(figure - '0')];
+  }
+  return label;
+}
+
 }  // namespace
 
 std::vector<Tick> linear_ticks(double min, double max, int wanted) {
@@ -79,20 +93,38 @@ std::vector<Tick> ticks_with_ends(double min, double max, int wanted) {
 }
 
 std::vector<Tick> decade_ticks(int first, int last) {
-  constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::vector<Tick> ticks;
   for (int exponent = first; exponent <= last; ++exponent) {
-    const double value = std::pow(10.0, exponent);
-    std::string label = format_number(value);
-    if (std::abs(exponent) > 2) {
-      label = exponent < 0 ? "10⁻" : "10";
-      for (const char digit : std::to_string(std::abs(exponent))) {
-        label += digits[static_cast<std::size_t>(digit - '0')];
-      }
-    }
-    ticks.push_back({value, std::move(label)});
+    ticks.push_back({std::pow(10.0, exponent), scientific_label(1, exponent)});
   }
   return ticks;
+}
+
+std::vector<Tick> log_ticks(double min, double max, int wanted) {
+  if (!(min > 0.0) || !is_range(min, max)) {
+    return {};
+  }
+  constexpr double slack = 1e-9;
+  constexpr int fewest = 3;
+  const auto first = int(std::floor(std::log10(min) + slack));
+  const auto last = int(std::ceil(std::log10(max) - slack));
+  const auto ticks_of = [&](std::initializer_list<int> digits, int step) {
+    std::vector<Tick> ticks;
+    for (int exponent = first; exponent <= last; ++exponent) {
+      for (const int digit : digits) {
+        const double value = digit * std::pow(10.0, exponent);
+        if (exponent % step == 0 && value >= min * (1.0 - slack) && value <= max * (1.0 + slack)) {
+          ticks.push_back({value, scientific_label(digit, exponent)});
+        }
+      }
+    }
+    return ticks;
+  };
+  std::vector<Tick> ticks = ticks_of({1, 2, 5}, 1);
+  for (int step = 1; int(ticks.size()) > std::max(wanted, fewest); ++step) {
+    ticks = ticks_of({1}, step);
+  }
+  return int(ticks.size()) < fewest && max < 10.0 * min ? linear_ticks(min, max, wanted) : ticks;
 }
 
 std::string format_number(double value) {

@@ -24,6 +24,11 @@ std::vector<Tick> ticks_with_ends(double min, double max, int wanted);
 /// and 10⁻³, 10⁴ and so on beyond them.
 std::vector<Tick> decade_ticks(int first, int last);
 
+/// About `wanted` or fewer ticks inside [min, max], min above 0, of a logarithmic axis: each 1, 2
+/// and 5 times a power of ten, or, where these are too many, powers of ten, each, every second, and
+/// so on. Linear ticks where the range holds too few of either. None for a range that is not one.
+std::vector<Tick> log_ticks(double min, double max, int wanted);
+
 /// Four significant digits, no trailing zeros: 71, 0.005, 31.27, 2.5e7.
 std::string format_number(double value);
 

@@ -52,6 +52,30 @@ TEST(Axis, DecadesAreLabelled) {
   EXPECT_EQ(labels, "10⁻³ 0.01 0.1 1 10 ");
 }
 
+TEST(Axis, LogarithmicOnesReachFromOneToTwoToFive) {
+  Axis axis = log_axis(0.13, 37.0, "s", 6);
+  EXPECT_DOUBLE_EQ(axis.min, 0.1);
+  EXPECT_DOUBLE_EQ(axis.max, 50.0);
+  EXPECT_EQ(axis.spacing, Spacing::logarithmic);
+  axis = log_axis(0.2, 0.2, "", 6);
+  EXPECT_DOUBLE_EQ(axis.min, 0.2);
+  EXPECT_DOUBLE_EQ(axis.max, 2.0);
+  for (const auto& [min, max] : {std::pair{0.0, 1.0}, {2.0, 1.0}, {std::nan(""), 1.0}}) {
+    axis = log_axis(min, max, "", 6);
+    EXPECT_EQ(axis.min, 0.1);
+    EXPECT_EQ(axis.max, 1.0);
+  }
+}
+
+TEST(Chart, ReadingsBetweenPointsAreStraightOnTheAxes) {
+  Chart chart;
+  chart.x = log_axis(1.0, 100.0, "seconds", 5);
+  chart.y = log_axis(0.01, 1.0, "error", 5);
+  chart.lines = {{"kl", accent, {{1.0, 1.0}, {100.0, 0.01}, {10.0, 0.5}}}};
+  EXPECT_EQ(reading_at(chart, 10.0), "seconds 10, kl: 0.1") << "the first piece";
+  EXPECT_EQ(reading_at(chart, 0.5), "");
+}
+
 TEST(SampleChart, HasABarACountInTheColoursOfTheHeatmap) {
   Snapshot snapshot = example();
   snapshot.lanes[0].policy.max_spp = 40;

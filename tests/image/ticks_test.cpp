@@ -68,5 +68,30 @@ TEST(FormatNumber, HasFourDigitsAndNoMore) {
   EXPECT_EQ(format_number(1.5e-7), "1.5e-7");
 }
 
+TEST(LogTicks, AreOneTwoFiveOrPowersOfTenAsRoomAllows) {
+  EXPECT_EQ(labels(log_ticks(0.1, 50.0, 9)), "0.1 0.2 0.5 1 2 5 10 20 50");
+  EXPECT_EQ(labels(log_ticks(0.1, 50.0, 5)), "0.1 1 10");
+  EXPECT_EQ(labels(log_ticks(2e-5, 0.02, 10)),
+            "2·10⁻⁵ 5·10⁻⁵ 10⁻⁴ 2·10⁻⁴ 5·10⁻⁴ 10⁻³ 2·10⁻³ 5·10⁻³ 0.01 0.02");
+  EXPECT_EQ(labels(log_ticks(1e-8, 1e4, 7)), "10⁻⁸ 10⁻⁶ 10⁻⁴ 0.01 1 100 10⁴");
+  EXPECT_EQ(labels(log_ticks(3.0, 4.5, 3)), "3.0 3.5 4.0 4.5");
+  EXPECT_EQ(labels(log_ticks(0.0, 1.0, 5)), "");
+  EXPECT_EQ(labels(log_ticks(1.0, std::numeric_limits<double>::infinity(), 5)), "");
+}
+
+TEST(LogTicks, StayInRangeAndNearTheWantedNumber) {
+  for (double min = 1.3e-9; min < 1e6; min *= 7.7) {
+    for (double ratio = 1.5; ratio < 1e12; ratio *= 3.1) {
+      const std::vector<Tick> ticks = log_ticks(min, min * ratio, 6);
+      EXPECT_GE(ticks.size(), 2u) << min << ' ' << ratio;
+      EXPECT_LE(ticks.size(), 9u) << min << ' ' << ratio;
+      for (const Tick& tick : ticks) {
+        EXPECT_GE(tick.value, min * (1 - 1e-6));
+        EXPECT_LE(tick.value, min * ratio * (1 + 1e-6));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace quartet
