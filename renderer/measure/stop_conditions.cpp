@@ -1,0 +1,83 @@
+#include "renderer/measure/stop_conditions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "renderer/table.h"
+
+namespace quartet {
+
+double ErrorTarget::progress(double error) const {
+  const Metric& row = quartet::metric(metric);
+  if (row.higher_is_better) {
+    return std::pow(10.0, (error - value) / 10.0);  // decibels of a squared error
+  }
+  if (error <= 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double ratio = value / error;
+  return row.quadratic ? ratio : ratio * ratio;
+}
+
+ErrorTarget parse_error_target(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) {
+    throw std::invalid_argument(fmt::format(
+        "'{}' is no error target; write METRIC=VALUE, such as relmse=0.01, with one of the metrics "
+        "{}",
+        text, row_ids(metrics())));
+  }
+  ErrorTarget target;
+  target.metric = find_metric(text.substr(0, equals)).key;
+  const std::string_view digits = text.substr(equals + 1);
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), target.value);
+  if (error != std::errc() || end != digits.data() + digits.size() || !(target.value > 0.0) ||
+      !std::isfinite(target.value)) {
+    throw std::invalid_argument(
+        fmt::format("'{}' is no number above 0; write METRIC=VALUE, such as relmse=0.01", digits));
+  }
+  return target;
+}
+
+double StopConditions::progress(const FrameRecord& last, std::size_t pixels,
+                                double measured_error) const {
+  double done = 0.0;
+  if (frames) {
+    done = std::max(done, double(last.frame) / double(*frames));
+  }
+  if (spp) {
+    done = std::max(done, double(last.samples) / double(pixels) / *spp);
+  }
+  if (seconds) {
+    done = std::max(done, last.seconds / *seconds);
+  }
+  if (error) {
+    done = std::max(done, error->progress(measured_error));
+  }
+  return done;
+}
+
+double StopConditions::progress(const Lane& lane, const RadianceImage* reference) const {
+  if (lane.history().empty()) {
+    return 0.0;
+  }
+  if (lane.plan().total == 0) {
+    return 1.0;
+  }
+  double measured_error = 0.0;
+  if (error) {
+    if (reference == nullptr) {
+      throw std::invalid_argument("an error target needs a reference to measure the error");
+    }
+    measured_error = metric(error->metric).compute(lane.film().image(), *reference);
+  }
+  return progress(lane.history().back(), lane.film().size(), measured_error);
+}
+
+}  // namespace quartet

@@ -1,0 +1,358 @@
+#include "renderer/measure/reference.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/image/exr.h"
+#include "renderer/measure/reference_render.h"
+#include "renderer/scene/load_scene.h"
+#include "tests/image/temp_folder.h"
+
+namespace quartet {
+namespace {
+
+constexpr int width = 37;  // not a multiple of a tile
+constexpr int height = 21;
+constexpr std::size_t pixels = std::size_t(width) * height;
+
+std::shared_ptr<const TraceScene> box() {
+  static const auto scene =
+      std::make_shared<const TraceScene>(load_scene(find_scene("cornell-box")));
+  return scene;
+}
+
+RenderSettings settings() {
+  RenderSettings settings = default_settings(box()->scene());
+  settings.width = width;
+  settings.height = height;
+  settings.max_depth = 3;
+  settings.seed = reference_seed;
+  return settings;
+}
+
+/// Exponential numbers of mean 1, a function of seed, pixel, index and channel (SplitMix64). Their
+/// sums need all of a double's digits.
+float exponential(std::uint64_t seed, int x, int y, std::uint64_t index, std::uint64_t channel) {
+  std::uint64_t z = 0;
+  for (const std::uint64_t part :
+       {seed, std::uint64_t(y) * width + std::uint64_t(x), index, channel}) {
+    z = (z ^ part) + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+  }
+  return float(-std::log1p(-double(z >> 11) * 0x1p-53));
+}
+
+SampleSource noise(std::uint64_t seed) {
+  return [seed](int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      for (int c = 0; c < 3; ++c) {
+        radiance[i][c] = exponential(seed, x, y, first + i, std::uint64_t(c));
+      }
+    }
+  };
+}
+
+void expect_same(const ReferenceSums& a, const ReferenceSums& b) {
+  EXPECT_EQ(a.spp, b.spp);
+  EXPECT_EQ(a.scene_hash, b.scene_hash);
+  EXPECT_EQ(a.settings, b.settings);
+  for (std::size_t half = 0; half < 2; ++half) {
+    EXPECT_TRUE(a.halves[half] == b.halves[half]) << "half " << half;
+  }
+}
+
+ReferenceSums read(const std::filesystem::path& path) {
+  const std::optional<ReferenceSums> sums = sums_of(read_exr(path), path);
+  EXPECT_TRUE(sums.has_value());
+  return sums.value_or(ReferenceSums{});
+}
+
+/// A picture of another program.
+void write_foreign(const std::filesystem::path& path, glm::vec3 last) {
+  RadianceImage image(width, height, glm::vec3(0.25f));
+  image.at(width - 1, height - 1) = last;
+  ExrImage exr(width, height);
+  exr.add_radiance(image);
+  write_exr(path, exr);
+}
+
+TEST(Reference, IsTheMeanOfAllSamplesOfBothSources) {
+  ReferenceRender render({noise(1), noise(2)}, settings());
+  render.add(5);
+  const auto reference = render.reference();
+  EXPECT_EQ(reference->spp, 5u);
+  EXPECT_EQ(reference->rejected, 0u);
+  for (const auto& [x, y] : {std::pair{0, 0}, {width - 1, height - 1}, {16, 15}}) {
+    std::array<glm::vec3, 3> first;
+    std::array<glm::vec3, 2> second;
+    noise(1)(x, y, 0, first);
+    noise(2)(x, y, 0, second);
+    const glm::dvec3 a = glm::dvec3(first[0]) + glm::dvec3(first[1]) + glm::dvec3(first[2]);
+    const glm::dvec3 b = glm::dvec3(second[0]) + glm::dvec3(second[1]);
+    EXPECT_EQ(reference->image.at(x, y), glm::vec3((a + b) / 5.0));
+    EXPECT_EQ(reference->halves[0].at(x, y), glm::vec3(a / 3.0));
+    EXPECT_EQ(reference->halves[1].at(x, y), glm::vec3(b / 2.0));
+  }
+}
+
+TEST(Reference, RejectsCountsAndLeavesOutBadSamples) {
+  const SampleSource with_bad = [](int, int, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      const std::uint32_t index = first + std::uint32_t(i);
+      radiance[i] = index == 0   ? glm::vec3(std::numeric_limits<float>::quiet_NaN())
+                    : index == 1 ? glm::vec3(1.0f, -1.0f, 1.0f)
+                                 : glm::vec3(3.0f);
+    }
+  };
+  ReferenceRender render({with_bad, with_bad}, settings());
+  render.add(2);
+  EXPECT_EQ(render.reference()->image.at(3, 3), glm::vec3(0.0f)) << "nothing left";
+  render.add(8);
+  const auto reference = render.reference();
+  EXPECT_EQ(reference->image.at(3, 3), glm::vec3(3.0f));
+  EXPECT_EQ(reference->rejected, 4 * pixels);
+}
+
+TEST(Reference, GoesOnFromAFileToTheBit) {
+  const TempFolder folder;
+  ReferenceRender at_once(box(), settings());
+  at_once.add(200);
+  ReferenceRender first(box(), settings());
+  first.add(3);
+  first.add(64);
+  write_exr(folder / "ref.exr", exr_of(first.sums(), "quartet"));
+  ReferenceRender second(box(), settings());
+  second.resume(read(folder / "ref.exr"), folder / "ref.exr");
+  EXPECT_EQ(second.sums().spp, 67u);
+  second.add(133);
+  expect_same(second.sums(), at_once.sums());
+  write_exr(folder / "ref.exr", exr_of(second.sums(), "quartet"));
+  expect_same(read(folder / "ref.exr"), at_once.sums());
+  EXPECT_EQ(load_reference(folder / "ref.exr")->image, at_once.reference()->image);
+  EXPECT_EQ(load_reference(folder / "ref.exr")->halves, at_once.reference()->halves);
+}
+
+TEST(Reference, SumsOfTinyAndHugeSamplesSurviveTheFile) {
+  const TempFolder folder;
+  const SampleSource extreme = [](int x, int, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      radiance[i] = {x % 2 == 0 ? 1e-44f : 3e38f, 1.0f / float(first + i + 1), 0.0f};
+    }
+  };
+  ReferenceRender render({extreme, extreme}, settings());
+  render.add(7);
+  write_exr(folder / "ref.exr", exr_of(render.sums(), "quartet"));
+  expect_same(read(folder / "ref.exr"), render.sums());
+}
+
+TEST(Reference, DoesNotDependOnTheNumberOfThreads) {
+  const auto sums = [](int threads) {
+    ReferenceRender render(box(), settings());
+    tbb::task_arena(threads).execute([&] { render.add(9); });
+    return render.sums();
+  };
+  const ReferenceSums one = sums(1);
+  expect_same(sums(2), one);
+  expect_same(sums(8), one);
+}
+
+// Half the difference of two halves of n samples each has the variance σ²/2n of the whole. With
+// 37 × 21 × 3 values, the estimate of it is off by 3 % (one standard deviation of chi-square); 5 of
+// these have a false-alarm rate of 1e-6.
+TEST(Reference, NoiseFloorIsTheErrorOfTheReferenceItself) {
+  ReferenceRender render({noise(1), noise(2)}, settings());
+  render.add(64);
+  const double truth = 1.0 / 64.0;  // exponential samples have variance 1
+  EXPECT_NEAR(render.reference()->noise_floor(MetricId::mse), truth, 0.15 * truth);
+  const auto reference = render.reference();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const glm::dvec3 d = reference->halves[0].pixels()[i] - reference->halves[1].pixels()[i];
+    squares += glm::dot(d, d) / 3.0 / double(pixels);
+  }
+  EXPECT_NEAR(reference->noise_floor(MetricId::mse), squares / 4.0, 1e-6 * squares);
+  EXPECT_NEAR(reference->noise_floor(MetricId::rmse), std::sqrt(squares / 4.0), 1e-6);
+  // What a reference of many more samples says of it.
+  ReferenceRender better({noise(3), noise(4)}, settings());
+  better.add(6400);
+  const double measured =
+      metric(MetricId::mse).compute(reference->image, better.reference()->image);
+  EXPECT_NEAR(measured, 1.01 * truth, 0.15 * truth);
+}
+
+TEST(Reference, NoiseFloorIsUnknownWithoutTwoHalves) {
+  ReferenceRender render({noise(1), noise(2)}, settings());
+  render.add(1);
+  EXPECT_TRUE(std::isnan(render.reference()->noise_floor(MetricId::mse)));
+  EXPECT_TRUE(std::isnan(Reference{}.noise_floor(MetricId::mse)));
+}
+
+TEST(Reference, StaysRightAtTenMillionSamplesAPixel) {
+  RenderSettings tiny = settings();
+  tiny.width = tiny.height = 1;
+  const SampleSource tenth = [](int, int, std::uint32_t, std::span<glm::vec3> radiance) {
+    std::ranges::fill(radiance, glm::vec3(0.1f, 1e-3f, 700.0f));
+  };
+  ReferenceRender render({tenth, tenth}, tiny);
+  render.add(10'000'000);
+  EXPECT_EQ(render.reference()->image.at(0, 0), glm::vec3(0.1f, 1e-3f, 700.0f));
+}
+
+TEST(Reference, FitsItsOwnSceneAndSaysWhyItFitsNoOther) {
+  const TempFolder folder;
+  ReferenceRender render(box(), settings());
+  render.add(2);
+  write_exr(folder / "ref.exr", exr_of(render.sums(), "quartet"));
+  const auto reference = load_reference(folder / "ref.exr");
+  EXPECT_TRUE(reference->ours());
+  EXPECT_EQ(reference->scene_name, "cornell-box");
+  RenderSettings run = settings();
+  run.seed = 0;
+  const auto reason = [&](const Scene& scene, const RenderSettings& of) {
+    return error_of([&] { check_reference(*reference, scene, of); });
+  };
+  EXPECT_EQ(reason(box()->scene(), run), "");
+  RenderSettings other = run;
+  other.integrator = IntegratorId::kajiya;
+  EXPECT_EQ(reason(box()->scene(), other), "") << "all integrators have the same mean";
+  const auto expect_reason = [&](const RenderSettings& of, const std::string& part) {
+    const std::string text = reason(box()->scene(), of);
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_NE(text.find("ref.exr"), std::string::npos) << text;
+  };
+  other = run;
+  other.width = 38;
+  expect_reason(other, "37x21 pixels, the run has 38x21");
+  other = run;
+  other.camera.origin.x += 1e-4f;
+  expect_reason(other, "camera");
+  other = run;
+  other.max_depth = std::numeric_limits<int>::max();
+  expect_reason(other, "depth 3, the run has unlimited depth");
+  for (const std::uint64_t seed : half_seeds(reference_seed)) {
+    other = run;
+    other.seed = seed;
+    expect_reason(other, "same random numbers");
+  }
+  Scene redder = box()->scene();
+  redder.materials[0].reflectance.value.r += 1e-6f;
+  EXPECT_NE(reason(redder, run).find("hash"), std::string::npos);
+}
+
+TEST(Reference, ResumesOnlyWhatItIs) {
+  const std::filesystem::path path = "ref.exr";
+  ReferenceRender render(box(), settings());
+  render.add(2);
+  const auto refused = [&](const RenderSettings& of) {
+    return error_of([&] { ReferenceRender(box(), of).resume(render.sums(), path); });
+  };
+  EXPECT_EQ(refused(settings()), "");
+  RenderSettings other = settings();
+  other.height = 22;
+  EXPECT_NE(refused(other).find("37x21"), std::string::npos);
+  other = settings();
+  other.integrator = IntegratorId::kajiya;
+  EXPECT_NE(refused(other).find("made with mis, not kajiya"), std::string::npos);
+  other = settings();
+  other.seed = 5;
+  EXPECT_NE(refused(other).find("seed"), std::string::npos);
+  other = settings();
+  other.max_depth = 4;
+  EXPECT_NE(refused(other).find("depth"), std::string::npos);
+  other = settings();
+  other.camera.fov += 1.0f;
+  EXPECT_NE(refused(other).find("camera"), std::string::npos);
+  const auto furnace = std::make_shared<const TraceScene>(load_scene(find_scene("furnace")));
+  EXPECT_NE(error_of([&] {
+              ReferenceRender(furnace, settings()).resume(render.sums(), path);
+            }).find("'cornell-box'"),
+            std::string::npos);
+}
+
+TEST(Reference, OfAnotherProgramIsKnownByItsSizeAlone) {
+  const TempFolder folder;
+  write_foreign(folder / "foreign.exr", glm::vec3(0.25f));
+  const auto reference = load_reference(folder / "foreign.exr");
+  EXPECT_FALSE(reference->ours());
+  EXPECT_EQ(reference->image.at(0, 0), glm::vec3(0.25f));
+  EXPECT_TRUE(std::isnan(reference->noise_floor(MetricId::mse)));
+  RenderSettings run = settings();
+  EXPECT_EQ(error_of([&] { check_reference(*reference, box()->scene(), run); }), "");
+  run.width = 64;
+  EXPECT_NE(error_of([&] { check_reference(*reference, box()->scene(), run); }).find("37x21"),
+            std::string::npos);
+}
+
+TEST(Reference, WithAPixelThatIsNotFiniteIsRefused) {
+  const TempFolder folder;
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    write_foreign(folder / "bad.exr", {0.0f, bad, 0.0f});
+    const std::string message = error_of([&] { load_reference(folder / "bad.exr"); });
+    EXPECT_NE(message.find("bad.exr"), std::string::npos) << message;
+    EXPECT_NE(message.find("(36, 20)"), std::string::npos) << message;
+  }
+  EXPECT_NE(error_of([&] { load_reference(folder / "none.exr"); }).find("none.exr"),
+            std::string::npos);
+}
+
+TEST(Reference, DamageInItsHeaderIsFound) {
+  const TempFolder folder;
+  ReferenceRender render(box(), settings());
+  render.add(2);
+  const ExrImage good = exr_of(render.sums(), "quartet");
+  for (const auto& [name, text] :
+       std::initializer_list<std::pair<std::string, std::string>>{{"spp", "many"},
+                                                                  {"camera", "origin 1 2"},
+                                                                  {"integrator", "magic"},
+                                                                  {"maxDepth", ""},
+                                                                  {"seed", "-1"}}) {
+    ExrImage bad = good;
+    bad.attributes[name] = text;
+    const std::string message = error_of([&] { sums_of(bad, "x.exr"); });
+    EXPECT_NE(message.find("x.exr is a damaged reference"), std::string::npos) << name << message;
+    bad.attributes.erase(name);
+    EXPECT_NE(error_of([&] { sums_of(bad, "x.exr"); }).find(name), std::string::npos);
+  }
+  ExrImage bad = good;
+  std::erase_if(bad.channels, [](const ExrChannel& c) { return c.name == "Half1.G.low"; });
+  EXPECT_NE(error_of([&] { sums_of(bad, "x.exr"); }).find("Half1.G.low"), std::string::npos);
+}
+
+TEST(SceneHash, IsOfWhatIsRendered) {
+  const Scene& scene = box()->scene();
+  const std::string hash = scene_hash(scene);
+  EXPECT_EQ(hash.size(), 16u);
+  Scene renamed = scene;
+  renamed.name = "other";
+  renamed.path = "/elsewhere.xml";
+  renamed.shapes[0].id = "floor";
+  renamed.shapes[0].line += 5;
+  renamed.materials[0].id = "white";
+  renamed.camera.fov = 10.0f;
+  renamed.width = 7;
+  renamed.max_depth = 3;
+  renamed.warnings.emplace_back("something");
+  EXPECT_EQ(scene_hash(renamed), hash);
+
+  std::vector<Scene> changed(8, scene);
+  changed[0].materials[0].reflectance.value.b += 1e-7f;
+  changed[1].materials[0].two_sided = !scene.materials[0].two_sided;
+  changed[2].environment.g = 0.1f;
+  changed[3].textures.emplace_back();
+  std::get<Mesh>(changed[4].shapes[0].geometry).positions[0].y += 1e-3f;
+  changed[5].shapes.pop_back();
+  changed[6].shapes[0].material += 1;
+  changed[7].shapes[0].emits = !scene.shapes[0].emits;
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    EXPECT_NE(scene_hash(changed[i]), hash) << "change " << i;
+  }
+}
+
+}  // namespace
+}  // namespace quartet

@@ -1,0 +1,150 @@
+#include "renderer/measure/stop_conditions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/adaptive/lab.h"
+#include "tests/image/temp_folder.h"
+
+namespace quartet {
+namespace {
+
+constexpr std::size_t pixels = 100;
+constexpr double no_error = 0.0;
+
+FrameRecord record(std::uint32_t frame, double mean_spp, double seconds) {
+  FrameRecord record;
+  record.frame = frame;
+  record.samples = std::uint64_t(mean_spp * double(pixels));
+  record.seconds = seconds;
+  return record;
+}
+
+StopConditions frames(std::uint32_t count) {
+  StopConditions stop;
+  stop.frames = count;
+  return stop;
+}
+
+/// Samples that are 0 and 2 in turn: a mean of 1 after each second one, and the error 1/n else.
+void alternate(int, int, std::uint32_t first, std::span<glm::vec3> radiance) {
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    radiance[i] = glm::vec3((first + i) % 2 == 0 ? 0.0f : 2.0f);
+  }
+}
+
+std::uint32_t frames_until(const StopConditions& stop, const RadianceImage* reference,
+                           const SamplingPolicy& policy = default_policy(EstimatorId::uniform)) {
+  Lab lab(alternate, 10, 10, std::span(&policy, 1));
+  double last = 0.0;
+  while (stop.progress(lab.lanes()[0], reference) < 1.0) {
+    EXPECT_GE(stop.progress(lab.lanes()[0], reference), 0.0);
+    lab.run_frame();
+    last += 1.0;
+  }
+  return std::uint32_t(last);
+}
+
+TEST(StopConditions, EachAloneCountsItsOwn) {
+  StopConditions stop = frames(8);
+  EXPECT_DOUBLE_EQ(stop.progress(record(2, 500, 500), pixels, no_error), 0.25);
+  EXPECT_DOUBLE_EQ(stop.progress(record(8, 0, 0), pixels, no_error), 1.0);
+  stop = {};
+  stop.spp = 24.0;
+  EXPECT_DOUBLE_EQ(stop.progress(record(1000, 6, 500), pixels, no_error), 0.25);
+  stop = {};
+  stop.seconds = 0.5;
+  EXPECT_DOUBLE_EQ(stop.progress(record(1000, 500, 0.4), pixels, no_error), 0.8);
+  stop = {};
+  EXPECT_FALSE(stop.any());
+  EXPECT_EQ(stop.progress(record(1000, 500, 500), pixels, no_error), 0.0) << "without an end";
+}
+
+TEST(StopConditions, OfSeveralTheNearestCounts) {
+  StopConditions stop = frames(10);
+  stop.spp = 100.0;
+  stop.seconds = 1.0;
+  stop.error = ErrorTarget{MetricId::mse, 0.01};
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 20, 0.3), pixels, 0.04), 0.5);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.3), pixels, 0.04), 0.7);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), pixels, 0.04), 0.8);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), pixels, 0.0125), 0.8);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), pixels, 0.01), 1.0);
+}
+
+// A quarter of the error of mse takes 4 times the samples, of rmse 16 times, and 6.02 dB twice.
+TEST(StopConditions, ErrorTargetsCountSamplesStillNeeded) {
+  for (const Metric& row : metrics()) {
+    const ErrorTarget target{row.key, row.higher_is_better ? 40.0 : 0.01};
+    const double off = row.higher_is_better ? 40.0 - 10 * std::log10(4.0) : 0.04;
+    EXPECT_NEAR(target.progress(off), row.quadratic || row.higher_is_better ? 0.25 : 0.0625, 1e-12)
+        << row.id;
+    EXPECT_GE(target.progress(target.value), 1.0) << row.id;
+    const double nearly = std::nextafter(target.value, row.higher_is_better ? 0.0 : 1.0);
+    EXPECT_LE(target.progress(nearly), 1.0) << row.id;
+    const double perfect = row.higher_is_better ? std::numeric_limits<double>::infinity() : 0.0;
+    EXPECT_GE(target.progress(perfect), 1.0) << row.id;
+  }
+}
+
+TEST(StopConditions, LanesStopAtTheFirstOne) {
+  const RadianceImage truth(10, 10, glm::vec3(1.0f));
+  StopConditions stop = frames(7);
+  EXPECT_EQ(frames_until(stop, nullptr), 7u);
+  stop.spp = 3.0;
+  EXPECT_EQ(frames_until(stop, nullptr), 3u);
+  stop = frames(7);
+  stop.error = ErrorTarget{MetricId::rmse, 0.2};  // 1, 0, …
+  EXPECT_EQ(frames_until(stop, &truth), 2u);
+  stop.frames = 1;
+  EXPECT_EQ(frames_until(stop, &truth), 1u);
+  const RadianceImage two(10, 10, glm::vec3(2.0f));
+  stop = {};
+  stop.error = ErrorTarget{MetricId::rmse, 0.5};
+  stop.spp = 50.0;
+  EXPECT_EQ(frames_until(stop, &two), 50u) << "an error that is never reached";
+}
+
+TEST(StopConditions, AlsoWhereNoPixelWantsMore) {
+  SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  policy.max_spp = 5;
+  EXPECT_EQ(frames_until(frames(1000), nullptr, policy), 5u);
+}
+
+TEST(StopConditions, AnErrorTargetNeedsAReferenceOfTheSameSize) {
+  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  Lab lab(alternate, 10, 10, std::span(&policy, 1));
+  StopConditions stop;
+  stop.error = ErrorTarget{MetricId::mse, 0.5};
+  const RadianceImage small(4, 4, glm::vec3(1.0f));
+  EXPECT_EQ(stop.progress(lab.lanes()[0], nullptr), 0.0) << "nothing to measure yet";
+  lab.run_frame();
+  EXPECT_NE(error_of([&] { stop.progress(lab.lanes()[0], nullptr); }).find("needs a reference"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { stop.progress(lab.lanes()[0], &small); }).find("4x4"),
+            std::string::npos);
+}
+
+TEST(ErrorTarget, IsReadFromText) {
+  const ErrorTarget target = parse_error_target("relmse_trimmed=2.5e-3");
+  EXPECT_EQ(target.metric, MetricId::relmse_trimmed);
+  EXPECT_EQ(target.value, 2.5e-3);
+  EXPECT_EQ(parse_error_target("psnr=40").metric, MetricId::psnr);
+}
+
+TEST(ErrorTarget, RefusesWhatIsNone) {
+  for (const char* text : {"", "relmse", "0.01", "ssim=0.1", "=0.1"}) {
+    const std::string message = error_of([&] { parse_error_target(text); });
+    EXPECT_NE(message.find("relmse_trimmed"), std::string::npos)
+        << text << " should list the metrics: " << message;
+  }
+  for (const char* value : {"", "0", "-1", "nan", "inf", "1e999", "0.1x", "0,1", " 0.1"}) {
+    const std::string message = error_of([&] { parse_error_target(std::string("mse=") + value); });
+    EXPECT_NE(message.find("no number above 0"), std::string::npos) << value << ": " << message;
+  }
+}
+
+}  // namespace
+}  // namespace quartet
