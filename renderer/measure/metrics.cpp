@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "renderer/measure/flip.h"
 #include "renderer/parallel.h"
 #include "renderer/table.h"
 
@@ -74,6 +75,12 @@ void for_blocks(std::size_t pixels, const Body& body) {
   });
 }
 
+void require_comparable(const RadianceImage& test, const RadianceImage& reference) {
+  require_same_size(test, reference);
+  require_finite(test, "the test picture");
+  require_finite(reference, "the reference");
+}
+
 template <Term term>
 double mean_of(const RadianceImage& test, const RadianceImage& reference) {
   require_same_size(test, reference);
@@ -100,9 +107,7 @@ double mean_of(const RadianceImage& test, const RadianceImage& reference) {
 
 template <Term term>
 ScalarImage map_of(const RadianceImage& test, const RadianceImage& reference) {
-  require_same_size(test, reference);
-  require_finite(test, "the test picture");
-  require_finite(reference, "the reference");
+  require_comparable(test, reference);
   ScalarImage map(test.width(), test.height());
   for_blocks(test.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -123,9 +128,7 @@ double psnr(const RadianceImage& test, const RadianceImage& reference) {
 }
 
 double relmse_trimmed(const RadianceImage& test, const RadianceImage& reference) {
-  require_same_size(test, reference);
-  require_finite(test, "the test picture");
-  require_finite(reference, "the reference");
+  require_comparable(test, reference);
   const std::span<const float> x = channels_of(test);
   const std::span<const float> r = channels_of(reference);
   std::vector<double> errors(x.size());
@@ -139,6 +142,16 @@ double relmse_trimmed(const RadianceImage& test, const RadianceImage& reference)
     std::nth_element(errors.begin(), kept, errors.end());
   }
   return std::accumulate(errors.begin(), kept, 0.0) / double(kept - errors.begin());
+}
+
+double checked_flip(const RadianceImage& test, const RadianceImage& reference) {
+  require_comparable(test, reference);
+  return flip(test, reference);
+}
+
+ScalarImage checked_flip_map(const RadianceImage& test, const RadianceImage& reference) {
+  require_comparable(test, reference);
+  return flip_map(test, reference);
 }
 
 constexpr std::array kMetrics{
@@ -159,6 +172,9 @@ constexpr std::array kMetrics{
     Metric{MetricId::psnr, "psnr", "PSNR", "dB",
            "10 log10(1/MSE) of sRGB values, radiance cut to [0, 1]", true, false, psnr,
            map_of<display_squared>, "squared error of sRGB values"},
+    Metric{MetricId::flip, "flip", "FLIP", "",
+           "mean of LDR-FLIP (Andersson et al. 2020), 67 pixels a degree, radiance cut to [0, 1]",
+           false, false, checked_flip, checked_flip_map, "LDR-FLIP (0 same, 1 most different)"},
 };
 
 }  // namespace
