@@ -66,6 +66,8 @@ int run_command_line(int argc, const char* const* argv) {
   add_render_command(app, program);
   add_screenshot_command(app, program);
   add_list_command(app, program);
+  add_info_command(app, program);
+  add_trace_command(app, program);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

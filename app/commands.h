@@ -23,6 +23,8 @@ void add_figure_command(CLI::App& app, const Program& program);
 void add_render_command(CLI::App& app, const Program& program);
 void add_screenshot_command(CLI::App& app, const Program& program);
 void add_list_command(CLI::App& app, const Program& program);
+void add_info_command(CLI::App& app, const Program& program);
+void add_trace_command(CLI::App& app, const Program& program);
 
 /// The options of the window, which is what the program opens without a command.
 struct WindowOptions {

@@ -9,6 +9,7 @@
 #include "app/lane_option.h"
 #include "app/number_check.h"
 #include "app/progress.h"
+#include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "renderer/image/staged_files.h"
 
@@ -66,6 +67,7 @@ void run_figure(const FigureOptions& options, const Program& program) {
                   RunCost{run.lab.threads, &lab.store()});
   files.commit();
   print_table(lab, options.out);
+  report_rejected(snapshot, options.run);
 }
 
 }  // namespace

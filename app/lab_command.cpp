@@ -13,17 +13,11 @@
 namespace quartet {
 namespace {
 
-/// A file's name holds wherever the program is started next; a built-in name holds as it is.
-std::string lasting_name(const std::string& scene) {
-  std::error_code error;
-  return std::filesystem::exists(scene, error) ? std::filesystem::absolute(scene).string() : scene;
-}
-
 bool can_be_found(const std::string& scene) {
   try {
-    find_scene(scene);
+    lasting_scene_name(scene);
     return true;
-  } catch (const SceneError&) {
+  } catch (const std::exception&) {
     return false;
   }
 }
@@ -37,9 +31,7 @@ void run_window(const WindowOptions& options) {
   WindowMemory memory;
   const std::string complaint = load_config(config, state, memory);
   if (!options.scene.empty()) {
-    state.scene = lasting_name(find_scene(options.scene) == options.scene
-                                   ? options.scene
-                                   : std::filesystem::path(options.scene).stem().string());
+    state.scene = lasting_scene_name(options.scene);
   } else if (!can_be_found(state.scene)) {
     state.scene = LabState().scene;  // the last one was moved away
   }
@@ -74,7 +66,9 @@ void run_window(const WindowOptions& options) {
   window.size(memory.width, memory.height);
   if (!config.empty()) {
     LabState last = driver.window().state();
-    last.scene = lasting_name(last.scene);
+    if (can_be_found(last.scene)) {
+      last.scene = lasting_scene_name(last.scene);
+    }
     save_config(config, last, memory);
   }
 }

@@ -7,7 +7,9 @@
 #include "renderer/adaptive/policy.h"
 #include "renderer/image/color_map.h"
 #include "renderer/image/tone_map.h"
+#include "renderer/measure/failure_case.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/synthetic.h"
 #include "renderer/trace/integrator.h"
 #include "ui/lab_figure.h"
 
@@ -39,6 +41,16 @@ ordered_json tables() {
     json["tone_maps"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
   }
   json["scenes"] = builtin_scenes();
+  for (const Synthetic& row : synthetics()) {
+    json["synthetic"].push_back({{"id", fmt::format("synthetic:{}", row.id)},
+                                 {"label", row.label},
+                                 {"mean", row.mean},
+                                 {"variance", row.variance}});
+  }
+  for (const FailureCase& row : failure_cases()) {
+    json["failure_cases"].push_back(
+        {{"id", row.id}, {"scene", row.scene}, {"mode", row.mode}, {"watch", row.watch}});
+  }
   return json;
 }
 
@@ -66,6 +78,14 @@ void print_tables() {
   fmt::print("scenes\n");
   for (const std::string& name : builtin_scenes()) {
     fmt::print("  {}\n", name);
+  }
+  fmt::print("distributions that stand in for a scene\n");
+  for (const Synthetic& row : synthetics()) {
+    fmt::print("  {:<21} {}\n", fmt::format("synthetic:{}", row.id), row.label);
+  }
+  fmt::print("failure cases\n");
+  for (const FailureCase& row : failure_cases()) {
+    fmt::print("  {:<16} {}, in {}\n", row.id, row.mode, row.scene);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/number_check.h"
 #include "app/progress.h"
+#include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/run_record.h"
 #include "renderer/image/lane_exr.h"
@@ -75,13 +76,9 @@ SamplingPolicy render_policy(const RenderOptions& options) {
   return policy;
 }
 
-void write_output(const std::filesystem::path& path, const Program& program, const Run& run,
-                  const Lab& lab, StagedFiles& files) {
+void write_output(const std::filesystem::path& path, const Program& program,
+                  const Snapshot& snapshot, StagedFiles& files) {
   const std::filesystem::path temporary = files.stage(path.filename().string());
-  Snapshot snapshot;
-  copy_lanes(lab, snapshot);
-  snapshot.scene = run.scene;
-  snapshot.settings = run.settings;
   if (path.extension() == ".png") {
     write_png(temporary, draw_view(snapshot, 0, ViewKind::image, {}).image);
   } else {
@@ -119,10 +116,15 @@ void run_render(const RenderOptions& options, const Program& program) {
                                                            double(lane.film().size())));
     }
   }
-  write_output(output, program, run, lab, files);
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
+  snapshot.scene = run.scene;
+  snapshot.settings = run.settings;
+  write_output(output, program, snapshot, files);
   const FrameRecord& last = lane.history().back();
   fmt::print("{}: {} frames, mean {:.2f} spp, max {} spp, {:.2f} s\n", output.string(), last.frame,
              double(last.samples) / double(lane.film().size()), last.max_spp, last.seconds);
+  report_rejected(snapshot, options.run);
 }
 
 }  // namespace

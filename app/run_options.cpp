@@ -1,6 +1,7 @@
 #include "app/run_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -8,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/number_check.h"
+#include "app/shell_words.h"
 #include "renderer/scene/load_scene.h"
 
 namespace quartet {
@@ -32,18 +34,6 @@ void check_memory(const RenderSettings& settings, std::size_t lanes) {
   }
 }
 
-SceneParameters parse_defines(const std::vector<std::string>& defines) {
-  SceneParameters parameters;
-  for (const std::string& define : defines) {
-    const std::size_t equals = define.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UsageError(fmt::format("-D: '{}' is not a parameter; write name=value", define));
-    }
-    parameters[define.substr(0, equals)] = define.substr(equals + 1);
-  }
-  return parameters;
-}
-
 void set_camera(const std::vector<float>& numbers, Camera& camera) {
   const auto vector = [&](std::size_t first) {
     return glm::vec3(numbers[first], numbers[first + 1], numbers[first + 2]);
@@ -62,6 +52,42 @@ void set_camera(const std::vector<float>& numbers, Camera& camera) {
 
 }  // namespace
 
+SceneParameters parse_defines(const std::vector<std::string>& defines) {
+  SceneParameters parameters;
+  for (const std::string& define : defines) {
+    const std::size_t equals = define.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError(fmt::format("-D: '{}' is not a parameter; write name=value", define));
+    }
+    parameters[define.substr(0, equals)] = define.substr(equals + 1);
+  }
+  return parameters;
+}
+
+std::string scene_words(const RunOptions& options) {
+  const RunOptions plain;
+  std::string words = shell_word(options.scene);
+  for (const std::string& define : options.defines) {
+    words += " -D " + shell_word(define);
+  }
+  if (!options.size.empty()) {
+    words += " --size " + shell_word(options.size);
+  }
+  if (options.integrator != plain.integrator) {
+    words += " --integrator " + shell_word(options.integrator);
+  }
+  if (options.max_depth) {
+    words += fmt::format(" --max-depth {}", *options.max_depth);
+  }
+  if (options.seed != plain.seed) {
+    words += fmt::format(" --seed {}", options.seed);
+  }
+  if (!options.camera.empty()) {
+    words += fmt::format(" --camera={}", fmt::join(options.camera, ","));
+  }
+  return words;
+}
+
 PictureSize parse_size(const std::string& option, const std::string& text) {
   const char* const end = text.data() + text.size();
   int width = 0;
@@ -79,10 +105,11 @@ PictureSize parse_size(const std::string& option, const std::string& text) {
   return {width, height};
 }
 
-void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
+void add_scene_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
   options.size_name = size_name;
   command
-      .add_option("scene", options.scene, "A Mitsuba 3 XML file, or the name of a built-in scene")
+      .add_option("scene", options.scene,
+                  "A Mitsuba 3 XML file, the name of a built-in scene, or synthetic:ID")
       ->required();
   command.add_option("-D", options.defines, "A parameter of the scene file: name=value")
       ->type_name("NAME=VALUE")
@@ -103,6 +130,10 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
                   "window writes it")
       ->delimiter(',')
       ->expected(12);
+}
+
+void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
+  add_scene_options(command, options, size_name);
   command.add_option("--threads", options.threads, "0: one a processor")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
@@ -129,7 +160,7 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
 Run prepare_run(const RunOptions& options, std::size_t lanes) {
   const IntegratorId integrator = find_integrator(options.integrator).key;
   find_allocation(options.policy);
-  Scene scene = load_scene(find_scene(options.scene), parse_defines(options.defines));
+  Scene scene = open_scene(options.scene, parse_defines(options.defines));
   for (const std::string& warning : scene.warnings) {
     fmt::print(stderr, "quartet: warning: {}\n", warning);
   }

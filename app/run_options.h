@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/scene/load_scene.h"
 #include "renderer/trace/integrator.h"
 
 namespace quartet {
@@ -30,10 +31,22 @@ struct RunOptions {
   std::uint32_t max_spp = SamplingPolicy{}.max_spp;
 };
 
-/// Adds them to a command; `size_name` is what the picture size is called where --size is something
-/// else.
+/// Adds those that decide the value of a sample: scene, parameters, size, integrator, depth, seed,
+/// camera.
+void add_scene_options(CLI::App& command, RunOptions& options,
+                       const std::string& size_name = "--size");
+
+/// Adds all of them to a command; `size_name` is what the picture size is called where --size is
+/// something else.
 void add_run_options(CLI::App& command, RunOptions& options,
                      const std::string& size_name = "--size");
+
+/// "name=value" words as parameters of a scene file. Throws UsageError.
+SceneParameters parse_defines(const std::vector<std::string>& defines);
+
+/// The options of add_scene_options that are not at their defaults, the scene first, as words of a
+/// command line.
+std::string scene_words(const RunOptions& options);
 
 struct PictureSize {
   int width, height;

@@ -10,8 +10,7 @@ void SceneLoader::start(Order order) {
     Result result;
     result.asked = order.scene;
     try {
-      result.scene =
-          std::make_shared<const TraceScene>(load_scene(find_scene(order.scene), order.parameters));
+      result.scene = std::make_shared<const TraceScene>(open_scene(order.scene, order.parameters));
     } catch (const std::exception& error) {
       result.error = error.what();
     }

@@ -14,6 +14,7 @@
 #include "app/number_check.h"
 #include "app/offscreen.h"
 #include "app/progress.h"
+#include "app/rejected_report.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
 
@@ -109,6 +110,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   }
   write_png(files.stage(output.filename().string()), offscreen.read());
   files.commit();
+  report_rejected(*driver.snapshot(), options.run);
 }
 
 }  // namespace

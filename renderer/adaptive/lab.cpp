@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "renderer/parallel.h"
+#include "renderer/scene/synthetic.h"
 
 namespace quartet {
 
@@ -147,6 +148,12 @@ void Lab::rewind_past(std::uint32_t frame) {
 
 SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
                            const RenderSettings& settings) {
+  if (const Synthetic* row = synthetic_of(scene->scene())) {
+    return [row, seed = settings.seed](int x, int y, std::uint32_t first,
+                                       std::span<glm::vec3> radiance) {
+      draw_synthetic(*row, seed, x, y, first, radiance);
+    };
+  }
   const CameraRays camera(settings.camera, settings.width, settings.height);
   const auto trace = integrator(settings.integrator).trace;
   return [scene = std::move(scene), settings, camera, trace](int x, int y, std::uint32_t first,

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "renderer/scene/synthetic.h"
+
 namespace quartet {
 
 namespace {
@@ -72,6 +74,11 @@ class Hasher {
     const auto& [name, path, shapes, materials, textures, environment, camera, width, height,
                  max_depth, warnings] = scene;
     add_all(shapes, materials, textures, environment);
+    if (const Synthetic* row = synthetic_of(scene)) {
+      for (const char letter : row->id) {
+        add(int(letter));
+      }
+    }
   }
 
   std::uint64_t state() const { return state_; }

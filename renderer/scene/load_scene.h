@@ -24,12 +24,22 @@ using SceneParameters = std::map<std::string, std::string>;
 /// Scene::warnings, once each. Throws SceneError.
 Scene load_scene(const std::filesystem::path& path, const SceneParameters& parameters = {});
 
-/// The scenes that come with Quartet: names without folder and extension, sorted.
+/// The scenes that come with Quartet: names without extension, sorted, those that show where
+/// methods fail with their folder ("failures/rare-light").
 std::vector<std::string> builtin_scenes();
 
 /// The file meant by `name`: the path itself if it exists, else the built-in scene of that name
 /// (with or without "scenes/" before and ".xml" behind it). Throws SceneError that lists the
 /// built-in scenes.
 std::filesystem::path find_scene(std::string_view name);
+
+/// What `name` is called wherever the program runs: a file's absolute path, a built-in scene's
+/// name, or "synthetic:ID". Throws like open_scene, without reading the file.
+std::string lasting_scene_name(std::string_view name);
+
+/// The scene meant by `name`: a file or a built-in scene as above, or "synthetic:ID", a
+/// distribution of synthetic.h, which takes no parameters. Throws SceneError, or
+/// std::invalid_argument that lists the distributions.
+Scene open_scene(std::string_view name, const SceneParameters& parameters = {});
 
 }  // namespace quartet

@@ -5,34 +5,68 @@
 #include <system_error>
 
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/synthetic.h"
 
 namespace quartet {
+namespace {
+
+constexpr std::string_view synthetic_prefix = "synthetic:";
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error);
+}
+
+/// The name of a built-in scene without what may stand around it.
+std::string builtin_name(std::string_view name) {
+  std::string_view bare = name;
+  if (bare.starts_with("scenes/")) bare.remove_prefix(7);
+  if (bare.ends_with(".xml")) bare.remove_suffix(4);
+  const std::vector<std::string> names = builtin_scenes();
+  if (std::find(names.begin(), names.end(), bare) == names.end()) {
+    throw SceneError(fmt::format("{}: no such scene; expected a Mitsuba 3 XML file or one of {}",
+                                 name, fmt::join(names, ", ")));
+  }
+  return std::string(bare);
+}
+
+}  // namespace
 
 std::vector<std::string> builtin_scenes() {
   std::vector<std::string> names;
   std::error_code error;  // a program moved away from its scenes has none
-  for (const auto& entry : std::filesystem::directory_iterator(QUARTET_SCENES_DIR, error)) {
-    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  const std::filesystem::path folder = QUARTET_SCENES_DIR;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".xml") continue;
+    names.push_back(entry.path().lexically_relative(folder).replace_extension().generic_string());
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
 std::filesystem::path find_scene(std::string_view name) {
-  std::error_code error;
-  std::filesystem::path path(name);
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_directory(path, error)) {
-    return path;
+  if (is_file(name)) return name;
+  return std::filesystem::path(QUARTET_SCENES_DIR) / (builtin_name(name) + ".xml");
+}
+
+std::string lasting_scene_name(std::string_view name) {
+  if (name.starts_with(synthetic_prefix)) {
+    return synthetic_scene(find_synthetic(name.substr(synthetic_prefix.size()))).name;
   }
-  std::string_view short_name = name;
-  if (short_name.starts_with("scenes/")) short_name.remove_prefix(7);
-  if (short_name.ends_with(".xml")) short_name.remove_suffix(4);
-  const std::vector<std::string> names = builtin_scenes();
-  if (std::find(names.begin(), names.end(), short_name) == names.end()) {
-    throw SceneError(fmt::format("{}: no such scene; expected a Mitsuba 3 XML file or one of {}",
-                                 name, fmt::join(names, ", ")));
+  return is_file(name) ? std::filesystem::absolute(name).string() : builtin_name(name);
+}
+
+Scene open_scene(std::string_view name, const SceneParameters& parameters) {
+  if (name.starts_with(synthetic_prefix)) {
+    if (!parameters.empty()) {
+      throw SceneError(
+          fmt::format("{}: takes no parameters, '{}' is one", name, parameters.begin()->first));
+    }
+    return synthetic_scene(find_synthetic(name.substr(synthetic_prefix.size())));
   }
-  return std::filesystem::path(QUARTET_SCENES_DIR) / fmt::format("{}.xml", short_name);
+  Scene scene = load_scene(find_scene(name), parameters);
+  if (!is_file(name)) scene.name = builtin_name(name);
+  return scene;
 }
 
 }  // namespace quartet

@@ -8,10 +8,35 @@
 
 namespace quartet {
 
-/// What may watch a path being traced. This one watches nothing and costs nothing.
+/// Why a path ended.
+enum class PathEnd {
+  escaped,   ///< its last ray met nothing
+  depth,     ///< it had as many segments as it may have
+  absorbed,  ///< the material sends nothing on in the direction drawn, or drew none
+  leaked,    ///< the direction lies behind the shading surface or behind the real one, not both
+  roulette,
+};
+
+/// What may watch a path being traced, in the order in which things happen. This one watches
+/// nothing and costs nothing; others hide the functions that they want.
 struct NoObserver {
+  /// A ray of the path is about to be traced.
   void closest_hit(const Ray&) {}
+  /// It met nothing; the environment's radiance counts with a weight of the power heuristic.
+  void missed(glm::vec3 /*environment*/, float /*weight*/) {}
+  /// It met a surface, after `distance`; `throughput` is that of the path up to here.
+  void vertex(const Surface&, float /*distance*/, glm::vec3 /*throughput*/) {}
+  /// The surface shines; the same weight.
+  void emitted(glm::vec3 /*radiance*/, float /*weight*/) {}
+  /// A ray to a light is about to be traced.
   void occluded(const Ray&) {}
+  /// The light was seen: its sample, the BSDF's value and density for its direction, the weight of
+  /// the power heuristic, and the radiance that is reflected, which times throughput counts.
+  void direct(const LightSample&, const BsdfValue&, float /*weight*/, glm::vec3 /*reflected*/) {}
+  /// The BSDF was sampled, whether the path goes on or not.
+  void scattered(const BsdfSample&, glm::vec3 /*direction*/) {}
+  void survival(float /*probability*/) {}
+  void ended(PathEnd) {}
 };
 
 namespace detail {
@@ -55,7 +80,10 @@ glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Fram
   if (scene.accel().occluded(shadow)) {
     return glm::vec3(0.0f);
   }
-  return light.radiance * value.f_cos * (power_heuristic(light.pdf, value.pdf) / light.pdf);
+  const float weight = power_heuristic(light.pdf, value.pdf);
+  const glm::vec3 reflected = light.radiance * value.f_cos * (weight / light.pdf);
+  observer.direct(light, value, weight, reflected);
+  return reflected;
 }
 
 }  // namespace detail
@@ -79,9 +107,12 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
       const float weight = NextEvent && bsdf_pdf > 0.0f
                                ? detail::power_heuristic(bsdf_pdf, scene.lights().environment_pdf())
                                : 1.0f;
+      observer.missed(scene.scene().environment, weight);
+      observer.ended(PathEnd::escaped);
       return radiance + weight * throughput * scene.scene().environment;
     }
     const Surface surface = scene.surface(ray, hit);
+    observer.vertex(surface, hit.t, throughput);
     const glm::vec3 emitted = scene.emitted(surface, ray.direction);
     if (emitted != glm::vec3(0.0f)) {
       const float weight =
@@ -89,9 +120,11 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
               ? detail::power_heuristic(
                     bsdf_pdf, scene.lights().pdf(surface, ray.origin, ray.direction, hit.t))
               : 1.0f;
+      observer.emitted(emitted, weight);
       radiance += weight * throughput * emitted;
     }
     if (depth >= max_depth) {
+      observer.ended(PathEnd::depth);
       return radiance;
     }
 
@@ -106,18 +139,23 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
 
     const BsdfSample next = sample(bsdf, wo, draws[2], draws[3]);
     throughput *= next.weight;
+    const glm::vec3 direction = frame.to_world(next.wi);
+    observer.scattered(next, direction);
     if (throughput == glm::vec3(0.0f)) {
+      observer.ended(PathEnd::absorbed);
       return radiance;
     }
-    const glm::vec3 direction = frame.to_world(next.wi);
     if (detail::leaks(surface, direction)) {
+      observer.ended(PathEnd::leaked);
       return radiance;
     }
     eta_scale *= next.eta_scale;
     if (depth >= detail::first_roulette_depth) {
       const float survival = std::min(
           detail::max_survival, eta_scale * std::max({throughput.x, throughput.y, throughput.z}));
+      observer.survival(survival);
       if (sampler.independent() >= survival) {
+        observer.ended(PathEnd::roulette);
         return radiance;
       }
       throughput /= survival;

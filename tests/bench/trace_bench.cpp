@@ -19,7 +19,7 @@ struct RecordedRay {
   bool shadow;
 };
 
-struct Recorder {
+struct Recorder : NoObserver {
   std::vector<RecordedRay> rays;
   void closest_hit(const Ray& ray) { rays.push_back({ray, false}); }
   void occluded(const Ray& ray) { rays.push_back({ray, true}); }

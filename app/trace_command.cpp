@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include "app/commands.h"
+#include "app/run_options.h"
+#include "app/scene_text.h"
+#include "renderer/scene/synthetic.h"
+#include "renderer/trace/path_log.h"
+#include "renderer/trace/running_mean.h"
+
+namespace quartet {
+namespace {
+
+struct TraceOptions {
+  RunOptions run;
+  std::vector<int> pixel;
+  std::uint32_t index = 0;
+};
+
+std::string numbers(glm::vec3 v) {
+  return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
+}
+
+std::string_view reason(PathEnd end) {
+  constexpr std::array reasons{"it left the scene", "it has as many segments as it may have",
+                               "the material sends nothing on",
+                               "its direction would leak through the shading surface",
+                               "Russian roulette"};
+  return reasons[std::size_t(end)];
+}
+
+std::string surface_text(const Scene& scene, const Surface& surface) {
+  const Shape& shape = scene.shapes[surface.shape];
+  const Material& material = scene.materials[std::size_t(shape.material)];
+  std::string text = fmt::format("shape {}", surface.shape);
+  text +=
+      shape.id.empty() ? fmt::format(" of line {}", shape.line) : fmt::format(" '{}'", shape.id);
+  if (std::holds_alternative<Mesh>(shape.geometry)) {
+    text += fmt::format(", triangle {}", surface.primitive);
+  }
+  text += fmt::format(", {}", material_name(material.kind));
+  return material.id.empty() ? text : fmt::format("{} '{}'", text, material.id);
+}
+
+void print_vertex(const Scene& scene, std::size_t number, const PathVertex& vertex) {
+  if (vertex.surface) {
+    const Surface& surface = *vertex.surface;
+    fmt::print("{:>2}  {}\n", number, surface_text(scene, surface));
+    fmt::print("    position   {}, {:.6g} from the vertex before\n", numbers(surface.position),
+               vertex.distance);
+    fmt::print("    normal     {}\n", numbers(surface.normal));
+    if (surface.shading_normal != surface.normal) {
+      fmt::print("    shading    {}\n", numbers(surface.shading_normal));
+    }
+  } else {
+    fmt::print("{:>2}  nothing: the environment\n", number);
+  }
+  fmt::print("    throughput {}\n", numbers(vertex.throughput));
+  if (vertex.emitted) {
+    fmt::print("    shines     {}, weight {:.6g}: + {}\n", numbers(vertex.emitted->radiance),
+               vertex.emitted->weight, numbers(vertex.emitted->contribution));
+  }
+  if (vertex.direct) {
+    const DirectLight& direct = *vertex.direct;
+    fmt::print("    light      {} towards {}\n", numbers(direct.light.radiance),
+               numbers(direct.light.direction));
+    fmt::print(
+        "               {:.6g} away, density {:.6g}/sr, of the BSDF {:.6g}/sr, weight {:.6g}: + "
+        "{}\n",
+        direct.light.distance, direct.light.pdf, direct.bsdf.pdf, direct.weight,
+        numbers(direct.contribution));
+  } else if (vertex.light_sampled) {
+    fmt::print("    light      hidden\n");
+  }
+  if (vertex.scattered) {
+    const BsdfSample& scattered = *vertex.scattered;
+    fmt::print("    goes on    {}, {}, weight {}\n", numbers(vertex.direction),
+               scattered.specular ? std::string("specular")
+                                  : fmt::format("density {:.6g}/sr", scattered.pdf),
+               numbers(scattered.weight));
+  }
+  if (vertex.survival) {
+    fmt::print("    roulette   survives with probability {:.6g}\n", *vertex.survival);
+  }
+}
+
+void check_pixel(const TraceOptions& options, const RenderSettings& settings) {
+  const int x = options.pixel[0];
+  const int y = options.pixel[1];
+  if (x < 0 || x >= settings.width || y < 0 || y >= settings.height) {
+    throw UsageError(
+        fmt::format("--pixel: {},{} is outside the picture; from 0,0 to {},{} there "
+                    "are pixels",
+                    x, y, settings.width - 1, settings.height - 1));
+  }
+}
+
+void run_trace(const TraceOptions& options) {
+  const Run run = prepare_run(options.run, 0);
+  check_pixel(options, run.settings);
+  const int x = options.pixel[0];
+  const int y = options.pixel[1];
+  glm::vec3 sample(0.0f);
+  sample_source(run.scene, run.settings)(x, y, options.index, std::span(&sample, 1));
+  const Scene& scene = run.scene->scene();
+  fmt::print("sample {} of pixel {},{} of {}, seed {}, ", options.index, x, y, scene.name,
+             run.settings.seed);
+  if (synthetic_of(scene) == nullptr) {
+    const PathLog log = log_path(*run.scene, run.settings, x, y, options.index);
+    fmt::print("{}\n", integrator(run.settings.integrator).id);
+    for (std::size_t i = 0; i < log.vertices.size(); ++i) {
+      print_vertex(scene, i + 1, log.vertices[i]);
+    }
+    fmt::print("ends: {}\n", reason(log.end));
+    // Bit by bit, because NaN is not equal to itself.
+    if (std::memcmp(&log.radiance, &sample, sizeof sample) != 0) {
+      throw std::logic_error(fmt::format("the renderer's sample is {}, the path above gives {}",
+                                         numbers(sample), numbers(log.radiance)));
+    }
+  } else {
+    fmt::print("drawn, not traced\n");
+  }
+  fmt::print("radiance {:.9g} {:.9g} {:.9g}{}\n", sample.x, sample.y, sample.z,
+             acceptable(sample) ? "" : ": rejected, no film takes it");
+}
+
+}  // namespace
+
+void add_trace_command(CLI::App& app, const Program&) {
+  CLI::App* command = app.add_subcommand("trace", "One sample, vertex by vertex");
+  const auto options = std::make_shared<TraceOptions>();
+  add_scene_options(*command, options->run);
+  command->add_option("--pixel", options->pixel, "Column and row, from 0,0 at the top left")
+      ->type_name("X,Y")
+      ->delimiter(',')
+      ->expected(2)
+      ->required();
+  command->add_option("--index", options->index, "Which sample of the pixel, from 0")
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n"
+      "  quartet trace cornell-checker --pixel 480,270 --index 3\n"
+      "  quartet trace failures/rare-light --pixel 48,32 --index 7 --integrator kajiya");
+  command->callback([options] { run_trace(*options); });
+}
+
+}  // namespace quartet

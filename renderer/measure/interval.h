@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+namespace quartet {
+
+/// A number with its confidence interval.
+struct Interval {
+  double mean = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+
+  bool contains(double value) const { return low <= value && value <= high; }
+};
+
+/// The number that Student's t with so many degrees of freedom exceeds in absolute value with
+/// probability `p`, in (0, 1): the half-width of a two-sided interval at confidence 1 − p, in
+/// standard errors.
+double student_quantile(double p, int degrees);
+
+/// Probability that Student's t lies at least this far from 0.
+double student_p(double t, int degrees);
+
+/// Of the mean of independent values, two-sided, at confidence 1 − p, by Student's t. Of a single
+/// value nothing is known: its interval has no ends.
+Interval mean_interval(std::span<const double> values, double p);
+
+/// Probability that the mean of independent values would lie at least so far from `truth` if that
+/// was their expectation; 1 if all are equal to it, 0 if all are equal to something else.
+double mean_p(std::span<const double> values, double truth);
+
+/// Of a share, of which `hits` of `trials` were seen: Wilson 1927. Of no trials: 0 to 1.
+Interval share_interval(double hits, double trials, double p);
+
+/// The false-alarm rate that each of so many tests may have so that all together stay at `family`:
+/// Šidák 1967.
+double sidak(double family, double tests);
+
+}  // namespace quartet
