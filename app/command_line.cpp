@@ -65,6 +65,8 @@ int run_command_line(int argc, const char* const* argv) {
   add_figure_command(app, program);
   add_render_command(app, program);
   add_screenshot_command(app, program);
+  add_reference_command(app, program);
+  add_compare_command(app, program);
   add_list_command(app, program);
   add_info_command(app, program);
   add_trace_command(app, program);

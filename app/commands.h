@@ -22,6 +22,8 @@ struct Program {
 void add_figure_command(CLI::App& app, const Program& program);
 void add_render_command(CLI::App& app, const Program& program);
 void add_screenshot_command(CLI::App& app, const Program& program);
+void add_reference_command(CLI::App& app, const Program& program);
+void add_compare_command(CLI::App& app, const Program& program);
 void add_list_command(CLI::App& app, const Program& program);
 void add_info_command(CLI::App& app, const Program& program);
 void add_trace_command(CLI::App& app, const Program& program);

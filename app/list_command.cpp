@@ -8,6 +8,7 @@
 #include "renderer/image/color_map.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/measure/failure_case.h"
+#include "renderer/measure/metrics.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"
 #include "renderer/trace/integrator.h"
@@ -32,6 +33,13 @@ ordered_json tables() {
   }
   for (const AllocationRow& row : allocations()) {
     json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
+  }
+  for (const Metric& row : metrics()) {
+    json["metrics"].push_back({{"id", row.id},
+                               {"label", row.label},
+                               {"unit", row.unit},
+                               {"definition", row.definition},
+                               {"higher_is_better", row.higher_is_better}});
   }
   for (const Integrator& row : integrators()) {
     json["integrators"].push_back(
@@ -67,6 +75,10 @@ void print_tables() {
   for (const AllocationRow& row : allocations()) {
     fmt::print("  {:<11} {}\n", row.id, row.source);
   }
+  fmt::print("metrics (x test, r reference)\n");
+  for (const Metric& row : metrics()) {
+    fmt::print("  {:<11} {}\n", row.id, row.definition);
+  }
   fmt::print("integrators\n");
   for (const Integrator& row : integrators()) {
     fmt::print("  {:<11} {}\n", row.id, row.description);
@@ -93,7 +105,8 @@ void print_tables() {
 
 void add_list_command(CLI::App& app, const Program&) {
   CLI::App* command = app.add_subcommand(
-      "list", "Estimators, policies, integrators, tone maps and scenes, with their sources");
+      "list",
+      "Estimators, policies, metrics, integrators, tone maps and scenes, with their sources");
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
   command->footer("Examples:\n  quartet list\n  quartet list --json");

@@ -132,11 +132,15 @@ void add_scene_options(CLI::App& command, RunOptions& options, const std::string
       ->expected(12);
 }
 
-void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
-  add_scene_options(command, options, size_name);
+void add_threads_option(CLI::App& command, RunOptions& options) {
   command.add_option("--threads", options.threads, "0: one a processor")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
+}
+
+void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
+  add_scene_options(command, options, size_name);
+  add_threads_option(command, options);
   command.add_option("--memory", options.memory_gib, "For stored samples, in GiB")
       ->check(number_between(0.001, 1e6))
       ->capture_default_str();

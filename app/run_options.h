@@ -36,6 +36,8 @@ struct RunOptions {
 void add_scene_options(CLI::App& command, RunOptions& options,
                        const std::string& size_name = "--size");
 
+void add_threads_option(CLI::App& command, RunOptions& options);
+
 /// Adds all of them to a command; `size_name` is what the picture size is called where --size is
 /// something else.
 void add_run_options(CLI::App& command, RunOptions& options,

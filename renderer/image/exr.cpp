@@ -55,6 +55,12 @@ std::string text_of(const ExrWindow& window) {
   return fmt::format("{}x{} at ({}, {})", window.width, window.height, window.x, window.y);
 }
 
+bool contains(const ExrWindow& outer, const ExrWindow& inner) {
+  return inner.x >= outer.x && inner.y >= outer.y &&
+         inner.x + inner.width <= outer.x + outer.width &&
+         inner.y + inner.height <= outer.y + outer.height;
+}
+
 /// OpenEXR addresses a pixel as base + x * xStride + y * yStride with x, y in the data window, so
 /// the base lies before the buffer if the window does not start at 0.
 template <class T>
@@ -208,13 +214,15 @@ ExrImage read_exr(const std::filesystem::path& path) {
 }
 
 RadianceImage radiance_of(const ExrImage& image, const std::filesystem::path& path) {
-  if (image.data != image.display) {
+  const ExrWindow& data = image.data;
+  const ExrWindow& shown = image.display;
+  if (!contains(data, shown)) {
     throw std::runtime_error(fmt::format(
-        "{}: its pixels cover {} but the picture is {}; an EXR whose data window equals its "
-        "display window would be right",
-        path.string(), text_of(image.data), text_of(image.display)));
+        "{}: its pixels cover {} but the picture is {}; an EXR with pixels for the whole picture "
+        "would be right",
+        path.string(), text_of(data), text_of(shown)));
   }
-  RadianceImage radiance(image.width(), image.height());
+  RadianceImage radiance(shown.width, shown.height);
   for (const auto& [name, axis] : {std::pair{"R", 0}, std::pair{"G", 1}, std::pair{"B", 2}}) {
     const ExrChannel* channel = image.find(name);
     if (channel == nullptr || !std::holds_alternative<std::vector<float>>(channel->pixels)) {
@@ -227,8 +235,11 @@ RadianceImage radiance_of(const ExrImage& image, const std::filesystem::path& pa
                       path.string(), name, names));
     }
     const auto& pixels = std::get<std::vector<float>>(channel->pixels);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      radiance.pixels()[i][axis] = pixels[i];
+    for (int y = 0; y < shown.height; ++y) {
+      const std::size_t row = std::size_t(shown.y + y - data.y) * std::size_t(data.width);
+      for (int x = 0; x < shown.width; ++x) {
+        radiance.at(x, y)[axis] = pixels[row + std::size_t(shown.x + x - data.x)];
+      }
     }
   }
   return radiance;

@@ -57,8 +57,10 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image);
 /// would be right (not an EXR, truncated, deep, subsampled channels, absurd size).
 ExrImage read_exr(const std::filesystem::path& path);
 
-/// The channels R, G, B of an image that was read from `path`. Throws std::runtime_error that names
-/// the path if one is missing (with the names there are), or if data and display window differ.
+/// The channels R, G, B of an image that was read from `path`, within its display window: what
+/// other programs render beyond its edges is left out. Throws std::runtime_error that names the
+/// path if one is missing (with the names there are), or if the data window leaves out a part of
+/// the picture: what is there would be a guess.
 RadianceImage radiance_of(const ExrImage& image, const std::filesystem::path& path);
 
 }  // namespace quartet

@@ -100,7 +100,29 @@ TEST(Exr, ACroppedImageKeepsItsPlaceAndIsRefusedAsRadiance) {
   EXPECT_EQ(floats(read, "R"), (std::vector<float>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(error_of([&] { radiance_of(read, "a.exr"); }),
             "a.exr: its pixels cover 3x2 at (-5, 7) but the picture is 100x50 at (0, 0); an EXR "
-            "whose data window equals its display window would be right");
+            "with pixels for the whole picture would be right");
+}
+
+TEST(Exr, PixelsBeyondThePictureAreLeftOutOfItsRadiance) {
+  ExrImage image(5, 3);
+  image.display = {0, 0, 2, 1};
+  image.data = {-2, -1, 5, 3};
+  for (const auto& [name, first] : {std::pair{"B", 200.f}, {"G", 100.f}, {"R", 0.f}}) {
+    std::vector<float> pixels(15);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      pixels[i] = first + static_cast<float>(i);
+    }
+    image.add(name, std::move(pixels));
+  }
+  const RadianceImage radiance = radiance_of(image, "a.exr");
+  ASSERT_EQ(radiance.width(), 2);
+  ASSERT_EQ(radiance.height(), 1);
+  EXPECT_EQ(radiance.at(0, 0), glm::vec3(7.f, 107.f, 207.f));
+  EXPECT_EQ(radiance.at(1, 0), glm::vec3(8.f, 108.f, 208.f));
+  // One column short on the right.
+  image.display = {0, 0, 4, 1};
+  EXPECT_NE(error_of([&] { radiance_of(image, "a.exr"); }).find("5x3 at (-2, -1)"),
+            std::string::npos);
 }
 
 TEST(Exr, SubsampledChannelsAreRefused) {

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/number_check.h"
+#include "app/reference_option.h"
+#include "renderer/image/exr.h"
+#include "renderer/image/staged_files.h"
+
+namespace quartet {
+namespace {
+
+struct ReferenceOptions {
+  RunOptions run;
+  ReferenceGoal goal;
+  bool restart = false;
+  std::string output;
+};
+
+/// Goes on with the file, if there is one.
+void resume_from(const std::filesystem::path& path, ReferenceRender& render) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return;
+  }
+  std::optional<ReferenceSums> sums = sums_of(read_exr(path), path);
+  if (!sums) {
+    throw std::runtime_error(
+        fmt::format("{} is there and no reference of Quartet's; choose another name, or give "
+                    "--restart to replace it",
+                    path.string()));
+  }
+  render.resume(std::move(*sums), path);
+}
+
+void print_summary(const std::filesystem::path& path, const ReferenceRender& render,
+                   std::uint64_t before) {
+  const auto reference = render.reference();
+  fmt::print(
+      "{}: {} spp, {} of them new, {:.2f} s; noise floor: relMSE {:.3g}, MSE {:.3g}, FLIP "
+      "{:.3g}\n",
+      path.string(), reference->spp, reference->spp - before, render.sums().seconds,
+      reference->noise_floor(MetricId::relmse), reference->noise_floor(MetricId::mse),
+      reference->noise_floor(MetricId::flip));
+  if (reference->rejected > 0) {
+    fmt::print(stderr, "quartet: warning: {} samples rejected (negative or not finite)\n",
+               reference->rejected);
+  }
+}
+
+void run_reference_command(const ReferenceOptions& options, const Program& program) {
+  const std::filesystem::path output = options.output;
+  if (output.extension() != ".exr") {
+    throw UsageError(fmt::format("-o: '{}' is no .exr", options.output));
+  }
+  if (!options.goal.spp && !options.goal.seconds) {
+    throw UsageError("how long? give --spp, such as --spp 4096, or --seconds");
+  }
+  const Run run = prepare_run(options.run, 1);
+  ReferenceRender render(run.scene, run.settings);
+  if (!options.restart) {
+    resume_from(output, render);
+  }
+  StagedFiles files(output.parent_path());
+  const std::uint64_t before = render.sums().spp;
+  bool finished = false;
+  {
+    const Interrupt interrupt;
+    finished = run_reference(render, options.goal, run.lab.threads, interrupt.token());
+  }
+  if (render.sums().spp > before) {
+    write_exr(files.stage(output.filename().string()), exr_of(render.sums(), program.command_line));
+    files.commit();
+  }
+  if (!finished && render.sums().spp < 2) {
+    throw Interrupted();
+  }
+  if (!finished) {
+    throw std::runtime_error(
+        fmt::format("interrupted; {} holds the {} spp that were done, and the same command goes on",
+                    output.string(), render.sums().spp));
+  }
+  print_summary(output, render, before);
+}
+
+}  // namespace
+
+void add_reference_command(CLI::App& app, const Program& program) {
+  CLI::App* command = app.add_subcommand(
+      "reference", "The truth to compare with: many samples, the same number in every pixel");
+  const auto options = std::make_shared<ReferenceOptions>();
+  options->run.seed = reference_seed;
+  add_scene_options(*command, options->run);
+  add_threads_option(*command, options->run);
+  command
+      ->add_option("--spp", options->goal.spp,
+                   "Samples per pixel in all, those of earlier runs included")
+      ->check(CLI::Range(std::uint64_t(2), std::uint64_t(4'000'000'000)));
+  command
+      ->add_option("--seconds", options->goal.seconds,
+                   "Stop after so much time, earlier runs not counted")
+      ->check(number_above_zero());
+  command->add_flag("--restart", options->restart,
+                    "Replace a file that is there instead of going on with it");
+  command->add_option("-o,--output", options->output, "An .exr")->required();
+  command->footer(
+      "Two halves with random numbers of their own tell how far the reference itself is off: its\n"
+      "noise floor, in the header. The default seed differs from that of experiments.\n"
+      "If the file is there, samples are added to it, and it ends to the bit as if made at once.\n"
+      "Ctrl-C ends after the samples at hand, a second or so, and keeps what is done: the same\n"
+      "command goes on. A second Ctrl-C leaves the file as it was.\n"
+      "Examples:\n"
+      "  quartet reference cornell-checker --size 480x270 --spp 4096 -o ref.exr\n"
+      "  quartet reference veach-plates --seconds 600 --integrator kajiya -o plates.exr");
+  command->callback([options, &program] { run_reference_command(*options, program); });
+}
+
+}  // namespace quartet

@@ -1,0 +1,53 @@
+#include "ui/error_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "renderer/image/ticks.h"
+
+namespace quartet {
+namespace {
+
+/// The value that a share of all numbers is at or below.
+float quantile(const ScalarImage& image, double share) {
+  std::vector<float> values(image.pixels().begin(), image.pixels().end());
+  const auto index = std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[std::size_t(index)];
+}
+
+}  // namespace
+
+Figure error_figure(const RadianceImage& test, const RadianceImage& reference, const Metric& metric,
+                    std::string title, std::string footer) {
+  const ScalarImage map = metric.map(test, reference);
+  const float highest = quantile(map, 0.999);
+  ColorScale scale;
+  scale.max = highest > 0.0f ? double(highest) : 1.0;
+  scale.color_map = ColorMapId::viridis;
+  FigurePanel panel;
+  panel.image = DisplayImage(map.width(), map.height());
+  apply(map.pixels(), scale, panel.image.pixels());
+  panel.title = fmt::format("{} {}", metric.label, format_number(metric.compute(test, reference)));
+  if (!metric.unit.empty()) {
+    panel.title += fmt::format(" {}", metric.unit);
+  }
+  const auto above = std::ranges::count_if(map.pixels(), [&](float v) { return v > highest; });
+  if (above > 0) {
+    panel.lines.push_back(fmt::format("{} pixels above the scale, up to {}", above,
+                                      format_number(*std::ranges::max_element(map.pixels()))));
+  }
+  panel.bar = ColorBar{scale, std::string(metric.map_quantity), ""};
+  Figure figure;
+  figure.title = std::move(title);
+  figure.footer = std::move(footer);
+  figure.columns = 1;
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace quartet
