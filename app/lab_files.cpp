@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "renderer/image/lane_exr.h"
@@ -11,10 +12,23 @@
 
 namespace quartet {
 
+namespace {
+
+/// "15", or "8 to 15" where lanes ended at different frames.
+std::string frames_text(const Snapshot& snapshot) {
+  const auto frames = [](const LaneSnapshot& lane) { return lane.history.size(); };
+  const std::size_t first = frames(*std::ranges::min_element(snapshot.lanes, {}, frames));
+  const std::size_t last = frames(*std::ranges::max_element(snapshot.lanes, {}, frames));
+  return first == last ? fmt::format("{}", last) : fmt::format("{} to {}", first, last);
+}
+
+}  // namespace
+
 void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
-                     const std::string& command_line, const std::optional<RunCost>& cost) {
+                     const std::string& command_line, const std::optional<RunCost>& cost,
+                     const Reference* reference) {
   const std::string title = fmt::format("{}, {} frames at {}×{}", snapshot.scene->scene().name,
-                                        snapshot.frame, snapshot.width, snapshot.height);
+                                        frames_text(snapshot), snapshot.width, snapshot.height);
   const std::string footer = fmt::format("quartet {} · {}", version(), command_line);
   const Figure images = image_figure(snapshot, view, title, footer);
   write_figure_png(images, files.stage("images.png"));
@@ -36,7 +50,7 @@ void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSet
               draw_view(snapshot, i, ViewKind::heatmap, view).image);
   }
   files.write("panels.csv", csv_record(snapshot));
-  files.write("panels.json", json_record(command_line, snapshot, cost));
+  files.write("panels.json", json_record(command_line, snapshot, cost, reference));
 }
 
 }  // namespace quartet

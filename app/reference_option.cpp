@@ -97,6 +97,10 @@ std::shared_ptr<const Reference> reference_at(const std::string& path, const Run
   return reference;
 }
 
+std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Reference>& reference) {
+  return reference ? std::shared_ptr<const RadianceImage>(reference, &reference->image) : nullptr;
+}
+
 bool run_reference(ReferenceRender& render, const ReferenceGoal& goal, int threads,
                    std::stop_token stop) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

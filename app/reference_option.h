@@ -22,6 +22,9 @@ void add_reference_option(CLI::App& command, std::string& path);
 /// with the reason if it does not fit.
 std::shared_ptr<const Reference> reference_at(const std::string& path, const Run& run);
 
+/// Its picture, which shares its life; null for null.
+std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Reference>& reference);
+
 /// A reference for the run with exactly so many samples a pixel: the cached one, else it is made,
 /// with a progress bar, and cached. What is interrupted is cached too, and gone on with next time.
 /// Throws std::runtime_error. Must not be called while an Interrupt lives.

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "renderer/image/views.h"
+#include "renderer/measure/metrics.h"
 #include "renderer/trace/sample_store.h"
 #include "renderer/version.h"
 
@@ -64,6 +70,34 @@ ordered_json settings_json(const RenderSettings& settings) {
   return json;
 }
 
+/// Number by id: every metric of the lane's picture, and its efficiency; psnr may be infinite.
+std::vector<std::pair<std::string_view, double>> true_errors(const Snapshot& snapshot,
+                                                             std::size_t lane) {
+  const RadianceImage image = radiance_image(snapshot, lane);
+  std::vector<std::pair<std::string_view, double>> errors;
+  for (const Metric& row : metrics()) {
+    errors.emplace_back(row.id, row.compute(image, *snapshot.reference));
+  }
+  const double mse = metric(MetricId::mse).compute(image, *snapshot.reference);
+  errors.emplace_back("efficiency", efficiency(mse, snapshot.lanes[lane].history.back().seconds));
+  return errors;
+}
+
+/// JSON has no infinity.
+ordered_json number_json(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json reference_json(const Reference& reference) {
+  ordered_json json;
+  json["file"] = reference.path.string();
+  json["spp"] = reference.ours() ? ordered_json(reference.spp) : ordered_json(nullptr);
+  for (const Metric& row : metrics()) {
+    json["noise_floor"][row.id] = number_json(reference.noise_floor(row.key));
+  }
+  return json;
+}
+
 }  // namespace
 
 std::map<std::string, std::string> exr_attributes(const std::string& command_line,
@@ -71,7 +105,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
   const LaneSnapshot& shown = snapshot.lanes[lane];
   ordered_json settings = settings_json(snapshot.settings);
   settings["policy"] = policy_json(shown.policy);
-  settings["frames"] = snapshot.frame;
+  settings["frames"] = shown.history.size();
   std::map<std::string, std::string> attributes{
       {"scene", snapshot.scene->scene().name},
       {"settings", settings.dump()},
@@ -88,7 +122,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
 }
 
 std::string json_record(const std::string& command_line, const Snapshot& snapshot,
-                        const std::optional<RunCost>& cost) {
+                        const std::optional<RunCost>& cost, const Reference* reference) {
   const Scene& scene = snapshot.scene->scene();
   ordered_json json;
   json["program"] = "quartet";
@@ -107,8 +141,12 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
                      {"seconds", store.seconds()},
                      {"partial", store.partial()}};
   }
+  if (reference != nullptr) {
+    json["reference"] = reference_json(*reference);
+  }
   json["lanes"] = ordered_json::array();
-  for (const LaneSnapshot& lane : snapshot.lanes) {
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    const LaneSnapshot& lane = snapshot.lanes[i];
     ordered_json entry = policy_json(lane.policy);
     entry["rejected"] =
         std::accumulate(lane.rejected.begin(), lane.rejected.end(), std::uint64_t(0));
@@ -121,6 +159,11 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
                                   {"refined_pixels", record.refined},
                                   {"seconds", record.seconds}});
     }
+    if (snapshot.reference && !lane.history.empty()) {
+      for (const auto& [id, error] : true_errors(snapshot, i)) {
+        entry["metrics"][id] = number_json(error);
+      }
+    }
     json["lanes"].push_back(std::move(entry));
   }
   return json.dump(2) + "\n";
@@ -129,17 +172,23 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
 std::string csv_record(const Snapshot& snapshot) {
   std::string csv =
       "scene,estimator,policy,thresholds,seed,frame,seconds,samples,mean_spp,metric,value\n";
-  for (const LaneSnapshot& lane : snapshot.lanes) {
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    const LaneSnapshot& lane = snapshot.lanes[i];
     const SamplingPolicy& policy = lane.policy;
+    std::string row;
     for (const FrameRecord& record : lane.history) {
-      const std::string row =
-          fmt::format("{},{},{},{},{},{},{:.6f},{},{:.6f}", snapshot.scene->scene().name,
-                      estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
-                      thresholds_text(policy), snapshot.settings.seed, record.frame, record.seconds,
-                      record.samples, mean_spp(snapshot, record));
+      row = fmt::format("{},{},{},{},{},{},{:.6f},{},{:.6f}", snapshot.scene->scene().name,
+                        estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
+                        thresholds_text(policy), snapshot.settings.seed, record.frame,
+                        record.seconds, record.samples, mean_spp(snapshot, record));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},refined_share,{:.6f}\n", row,
                          double(record.refined) / double(snapshot.pixels()));
+    }
+    if (snapshot.reference && !lane.history.empty()) {
+      for (const auto& [id, error] : true_errors(snapshot, i)) {
+        csv += fmt::format("{},{},{:.9g}\n", row, id, error);
+      }
     }
   }
   return csv;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "renderer/adaptive/snapshot.h"
+#include "renderer/measure/reference.h"
 
 namespace quartet {
 
@@ -24,12 +25,14 @@ struct RunCost {
 std::map<std::string, std::string> exr_attributes(const std::string& command_line,
                                                   const Snapshot& snapshot, std::size_t lane);
 
-/// One JSON document: settings, the store if its cost is known, and each lane with its history.
+/// One JSON document: settings, the store if its cost is known, the reference if there is one, and
+/// each lane with its history and its errors against the reference.
 std::string json_record(const std::string& command_line, const Snapshot& snapshot,
-                        const std::optional<RunCost>& cost);
+                        const std::optional<RunCost>& cost, const Reference* reference = nullptr);
 
 /// Long form, one row a measurement: scene, estimator, policy, thresholds, seed, frame, seconds,
-/// samples, mean_spp, metric, value. Every frame of every lane.
+/// samples, mean_spp, metric, value. Every frame of every lane; the errors against a reference of
+/// its last one.
 std::string csv_record(const Snapshot& snapshot);
 
 }  // namespace quartet

@@ -10,11 +10,14 @@
 #include "app/imgui_screen.h"
 #include "app/interrupt.h"
 #include "app/lab_driver.h"
+#include "app/lab_run.h"
 #include "app/lane_option.h"
 #include "app/number_check.h"
 #include "app/offscreen.h"
 #include "app/progress.h"
+#include "app/reference_option.h"
 #include "app/rejected_report.h"
+#include "app/stop_options.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
 
@@ -25,7 +28,8 @@ struct ScreenshotOptions {
   RunOptions run;
   LaneOptions lanes;
   ViewOptions view;
-  std::uint32_t frames = 15;
+  StopOptions stop;
+  std::string reference;
   std::string window = "1600x1000";
   float scale = 0.0f;
   std::string layout = "columns";
@@ -44,6 +48,20 @@ LabLayout layout_of(const std::string& id) {
       fmt::format("--layout: unknown layout '{}'; there are: columns, grid, large", id));
 }
 
+/// The window shows all lanes at one frame: the one where the last of them meets its end. To know
+/// it of anything but a number of frames takes a run of its own.
+std::uint32_t frame_of_end(const ScreenshotOptions& options, const Run& run,
+                           std::span<const SamplingPolicy> policies) {
+  const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
+  const auto reference = reference_at(options.reference, run);
+  if (stop.frames && !stop.spp && !stop.seconds && !stop.error) {
+    return *stop.frames;
+  }
+  Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
+          run.lab);
+  return run_to_end(lab, stop, image_of(reference)).frame;
+}
+
 LabState state_of(const ScreenshotOptions& options, const Run& run) {
   LabState state = initial_state();
   set_scene(state, run.scene);
@@ -55,7 +73,6 @@ LabState state_of(const ScreenshotOptions& options, const Run& run) {
   state.request.threads = run.lab.threads;
   state.view = view_settings(options.view);
   state.layout = layout_of(options.layout);
-  state.playback.set_target(options.frames);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     for (std::size_t slot = 0; slot < 2; ++slot) {
       const std::string& id = options.views[std::min(slot, options.views.size() - 1)];
@@ -75,6 +92,8 @@ void run_screenshot(const ScreenshotOptions& options) {
   const Run run = prepare_run(options.run, lane_count);
   LabState state = state_of(options, run);
   StagedFiles files(output.parent_path());
+  const std::uint32_t frames = frame_of_end(options, run, state.request.policies);
+  state.playback.set_target(frames);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};
@@ -97,8 +116,7 @@ void run_screenshot(const ScreenshotOptions& options) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     draw();
     const std::uint32_t frame = driver.snapshot() ? driver.snapshot()->frame : 0;
-    progress.update(double(frame) / double(options.frames),
-                    fmt::format("frame {} of {}", frame, options.frames));
+    progress.update(double(frame) / double(frames), fmt::format("frame {} of {}", frame, frames));
     if (const std::string error = driver.status().error; !error.empty()) {
       throw std::runtime_error(error);
     }
@@ -122,9 +140,8 @@ void add_screenshot_command(CLI::App& app, const Program&) {
   add_run_options(*command, options->run, "--render-size");
   add_lane_options(*command, options->lanes);
   add_view_options(*command, options->view);
-  command->add_option("--frames", options->frames, "Rounds of sampling")
-      ->check(CLI::Range(1u, 10'000'000u))
-      ->capture_default_str();
+  add_stop_options(*command, options->stop);
+  add_reference_option(*command, options->reference);
   command->add_option("--size", options->window, "Of the window")
       ->type_name("WxH")
       ->capture_default_str();
@@ -143,6 +160,7 @@ void add_screenshot_command(CLI::App& app, const Program&) {
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "A .png")->required();
   command->footer(
+      "All lanes are shown at the frame where the last of them meets its end.\n"
       "Examples:\n"
       "  quartet screenshot cornell-checker --frames 15 --size 1600x1000 -o lab.png\n"
       "  quartet screenshot veach-plates --views error,difference --layout grid -o plates.png");

@@ -41,6 +41,8 @@ struct Snapshot {
   int height = 0;
   std::uint32_t frame = 0;  ///< of all lanes; 0: nothing yet
   std::vector<LaneSnapshot> lanes;
+  /// What true errors are measured against; null if there is nothing.
+  std::shared_ptr<const RadianceImage> reference;
 
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
 };

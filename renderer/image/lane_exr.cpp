@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/image/views.h"
+#include "renderer/measure/metrics.h"
+
 namespace quartet {
 
 ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {

@@ -6,8 +6,8 @@
 namespace quartet {
 
 /// Everything a snapshot knows about a lane's pixels: R, G, B, SampleCount (samples in the mean),
-/// Rejected, Error.<estimator> (Error.<estimator>.R/G/B where it has three), and Variance.R/G/B of
-/// the mean where it has them.
+/// Rejected, Error.<estimator> (Error.<estimator>.R/G/B where it has three), Variance.R/G/B of the
+/// mean where it has them, and SquaredError (mean over the channels) where there is a reference.
 ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane);
 
 }  // namespace quartet

@@ -14,48 +14,11 @@
 
 #include "renderer/adaptive/estimator.h"
 #include "renderer/image/exr.h"
+#include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
 
 namespace quartet {
 namespace {
-
-struct Result {
-  int code;
-  std::string out;
-  std::string error;
-};
-
-Result run(std::vector<std::string> words) {
-  words.insert(words.begin(), "quartet");
-  std::vector<const char*> argv;
-  argv.reserve(words.size());
-  for (const std::string& word : words) {
-    argv.push_back(word.c_str());
-  }
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = run_command_line(int(argv.size()), argv.data());
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
-
-std::set<std::string> names_in(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    names.insert(entry.path().filename().string());
-  }
-  return names;
-}
-
-/// Wrong usage: exit code 2 and one line that holds `message`; nothing is written.
-void expect_usage_error(const std::vector<std::string>& words, const std::string& message) {
-  SCOPED_TRACE(message);
-  const Result result = run(words);
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.error.find(message), std::string::npos) << result.error;
-  EXPECT_EQ(std::ranges::count(result.error, '\n'), 1) << result.error;
-  EXPECT_EQ(result.out, "");
-}
 
 TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   const TempFolder folder;
