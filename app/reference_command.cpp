@@ -20,6 +20,17 @@ struct ReferenceOptions {
   std::string output;
 };
 
+/// One that could be written but not read again would be of no use.
+void check_size(const RenderSettings& settings) {
+  constexpr double most = 14e6;  // pixels; each has 19 numbers, and read_exr takes 2^28
+  if (double(settings.width) * double(settings.height) > most) {
+    throw UsageError(
+        fmt::format("--size: {}x{} is too large for a reference; up to 14 million "
+                    "pixels are possible",
+                    settings.width, settings.height));
+  }
+}
+
 /// Goes on with the file, if there is one.
 void resume_from(const std::filesystem::path& path, ReferenceRender& render) {
   std::error_code ignored;
@@ -60,6 +71,7 @@ void run_reference_command(const ReferenceOptions& options, const Program& progr
     throw UsageError("how long? give --spp, such as --spp 4096, or --seconds");
   }
   const Run run = prepare_run(options.run, 1);
+  check_size(run.settings);
   ReferenceRender render(run.scene, run.settings);
   if (!options.restart) {
     resume_from(output, render);

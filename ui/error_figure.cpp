@@ -20,15 +20,27 @@ float quantile(const ScalarImage& image, double share) {
   return values[std::size_t(index)];
 }
 
+/// Where errors span decades, a linear scale would show a few fireflies in the dark.
+ColorScale scale_of(const ScalarImage& map, float highest) {
+  constexpr float decades = 1e4f;
+  constexpr float wide = 30.0f;
+  ColorScale scale;
+  scale.color_map = ColorMapId::viridis;
+  scale.max = highest > 0.0f ? double(highest) : 1.0;
+  if (highest > wide * quantile(map, 0.5)) {
+    scale.spacing = Spacing::logarithmic;
+    scale.min = scale.max / decades;
+  }
+  return scale;
+}
+
 }  // namespace
 
 Figure error_figure(const RadianceImage& test, const RadianceImage& reference, const Metric& metric,
                     std::string title, std::string footer) {
   const ScalarImage map = metric.map(test, reference);
   const float highest = quantile(map, 0.999);
-  ColorScale scale;
-  scale.max = highest > 0.0f ? double(highest) : 1.0;
-  scale.color_map = ColorMapId::viridis;
+  const ColorScale scale = scale_of(map, highest);
   FigurePanel panel;
   panel.image = DisplayImage(map.width(), map.height());
   apply(map.pixels(), scale, panel.image.pixels());

@@ -38,6 +38,11 @@ ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
   for (std::size_t c = 0; c < from.variance.size() / pixels; ++c) {
     exr.add(fmt::format("Variance.{}", channel_names[c]), plane(from.variance, c));
   }
+  if (snapshot.reference) {
+    const ScalarImage squared =
+        metric(MetricId::mse).map(radiance_image(snapshot, lane), *snapshot.reference);
+    exr.add("SquaredError", std::vector<float>(squared.pixels().begin(), squared.pixels().end()));
+  }
   return exr;
 }
 

@@ -127,6 +127,7 @@ TEST_F(ReferenceCommand, WrongUsage) {
     expect_usage_error(with({"--seconds", seconds}), "--seconds");
   }
   expect_usage_error({"reference", "cornell-box", "--spp", "4", "-o", "a.png"}, "no .exr");
+  expect_usage_error(with({"--spp", "4", "--size", "6000x3000"}), "14 million pixels");
   EXPECT_EQ(names_in(folder_.path()), std::set<std::string>());
 }
 
