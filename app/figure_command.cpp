@@ -51,8 +51,9 @@ void run_figure(const FigureOptions& options, const Program& program) {
   const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run);
   const ViewSettings view = view_settings(options.view);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  const Run run = prepare_run(options.run, policies.size());
+  Run run = prepare_run(options.run, policies.size());
   const auto reference = reference_at(options.reference, run);
+  run.lab.reference = truth_for(policies, reference);
   StagedFiles files(options.out);
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
           run.lab);
@@ -64,6 +65,7 @@ void run_figure(const FigureOptions& options, const Program& program) {
   files.commit();
   print_table(snapshot, options.out);
   report_rejected(snapshot, options.run);
+  tell_if_partial(lab, options.run);
 }
 
 }  // namespace

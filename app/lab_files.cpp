@@ -16,9 +16,11 @@ namespace {
 
 /// "15", or "8 to 15" where lanes ended at different frames.
 std::string frames_text(const Snapshot& snapshot) {
-  const auto frames = [](const LaneSnapshot& lane) { return lane.history.size(); };
-  const std::size_t first = frames(*std::ranges::min_element(snapshot.lanes, {}, frames));
-  const std::size_t last = frames(*std::ranges::max_element(snapshot.lanes, {}, frames));
+  const auto frames = [](const LaneSnapshot& lane) {
+    return lane.history.empty() ? 0 : lane.history.back().frame;
+  };
+  const std::uint32_t first = frames(*std::ranges::min_element(snapshot.lanes, {}, frames));
+  const std::uint32_t last = frames(*std::ranges::max_element(snapshot.lanes, {}, frames));
   return first == last ? fmt::format("{}", last) : fmt::format("{} to {}", first, last);
 }
 

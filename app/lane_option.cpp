@@ -14,7 +14,7 @@ namespace {
 [[noreturn]] void fail(const std::string& text, const std::string& reason) {
   throw UsageError(
       fmt::format("--lane: '{}': {}; write ESTIMATOR or ESTIMATOR:THRESHOLDS with policy=P, "
-                  "multiplier=X, max-spp=N, "
+                  "mode=M, multiplier=X, max-spp=N, first=N, batch=N, "
                   "stochastic-rounding as wanted, such as contrast:0.4,0.3,0.6,multiplier=1",
                   text, reason));
 }
@@ -96,10 +96,19 @@ std::string lane_text(const SamplingPolicy& policy) {
   for (int c = 0; c < row.channels; ++c) {
     add(fmt::format("{}", policy.thresholds[std::size_t(c)]));
   }
-  if (policy.allocation.kind != Allocation{}.kind) {
+  if (policy.allocation.kind != row.default_allocation) {
     add(fmt::format("policy={}", allocation(policy.allocation.kind).id));
   }
+  if (policy.use != SamplingPolicy{}.use) {
+    add(fmt::format("mode={}", sample_use(policy.use).id));
+  }
   add(fmt::format("multiplier={}", policy.allocation.multiplier));
+  if (policy.allocation.first > 0) {
+    add(fmt::format("first={}", policy.allocation.first));
+  }
+  if (policy.allocation.batch > 0) {
+    add(fmt::format("batch={}", policy.allocation.batch));
+  }
   if (policy.max_spp != SamplingPolicy{}.max_spp) {
     add(fmt::format("max-spp={}", policy.max_spp));
   }
@@ -123,6 +132,12 @@ SamplingPolicy policy_of_lane(const std::string& text, const RunOptions& run) {
     const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
     if (name == "policy") {
       policy.allocation.kind = find_allocation(value).key;
+    } else if (name == "mode") {
+      policy.use = find_sample_use(value).key;
+    } else if (name == "first") {
+      policy.allocation.first = number_of<std::uint16_t>(text, value);
+    } else if (name == "batch") {
+      policy.allocation.batch = number_of<std::uint16_t>(text, value);
     } else if (name == "multiplier") {
       policy.allocation.multiplier = positive_number(text, value, true);
     } else if (name == "max-spp") {

@@ -29,7 +29,9 @@ ordered_json tables() {
          {"source", row.source},
          {"default", std::vector<float>(row.default_thresholds.begin(),
                                         row.default_thresholds.begin() + row.channels)},
-         {"default_source", row.threshold_source}});
+         {"default_source", row.threshold_source},
+         {"default_policy", allocation(row.default_allocation).id},
+         {"needs_reference", row.needs_reference}});
   }
   for (const AllocationRow& row : allocations()) {
     json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
@@ -40,6 +42,9 @@ ordered_json tables() {
                                {"unit", row.unit},
                                {"definition", row.definition},
                                {"higher_is_better", row.higher_is_better}});
+  }
+  for (const SampleUseRow& row : sample_uses()) {
+    json["modes"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
   }
   for (const Integrator& row : integrators()) {
     json["integrators"].push_back(
@@ -65,27 +70,32 @@ ordered_json tables() {
 void print_tables() {
   fmt::print("estimators\n");
   for (const Estimator& row : estimators()) {
-    fmt::print("  {:<11} {}\n", row.id, row.source);
+    fmt::print("  {:<15} {}\n", row.id, row.source);
     if (row.channels > 0) {
-      fmt::print("  {:<11} default {}, {}\n", "", threshold_text(default_policy(row.key)),
-                 row.threshold_source);
+      fmt::print("  {:<15} default {}, {}; policy {}\n", "",
+                 threshold_text(default_policy(row.key)), row.threshold_source,
+                 allocation(row.default_allocation).id);
     }
   }
   fmt::print("policies\n");
   for (const AllocationRow& row : allocations()) {
-    fmt::print("  {:<11} {}\n", row.id, row.source);
+    fmt::print("  {:<15} {}\n", row.id, row.source);
+  }
+  fmt::print("modes\n");
+  for (const SampleUseRow& row : sample_uses()) {
+    fmt::print("  {:<15} {}\n", row.id, row.source);
   }
   fmt::print("metrics (x test, r reference)\n");
   for (const Metric& row : metrics()) {
-    fmt::print("  {:<11} {}\n", row.id, row.definition);
+    fmt::print("  {:<15} {}\n", row.id, row.definition);
   }
   fmt::print("integrators\n");
   for (const Integrator& row : integrators()) {
-    fmt::print("  {:<11} {}\n", row.id, row.description);
+    fmt::print("  {:<15} {}\n", row.id, row.description);
   }
   fmt::print("tone maps\n");
   for (const ToneMapRow& row : tone_maps()) {
-    fmt::print("  {:<11} {}\n", row.id, row.source);
+    fmt::print("  {:<15} {}\n", row.id, row.source);
   }
   fmt::print("scenes\n");
   for (const std::string& name : builtin_scenes()) {
@@ -104,9 +114,9 @@ void print_tables() {
 }  // namespace
 
 void add_list_command(CLI::App& app, const Program&) {
-  CLI::App* command = app.add_subcommand(
-      "list",
-      "Estimators, policies, metrics, integrators, tone maps and scenes, with their sources");
+  CLI::App* command = app.add_subcommand("list",
+                                         "Estimators, policies, modes, metrics, integrators, tone "
+                                         "maps and scenes, with their sources");
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
   command->footer("Examples:\n  quartet list\n  quartet list --json");

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "renderer/image/exr.h"
@@ -99,6 +100,19 @@ std::shared_ptr<const Reference> reference_at(const std::string& path, const Run
 
 std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Reference>& reference) {
   return reference ? std::shared_ptr<const RadianceImage>(reference, &reference->image) : nullptr;
+}
+
+std::shared_ptr<const RadianceImage> truth_for(std::span<const SamplingPolicy> policies,
+                                               const std::shared_ptr<const Reference>& reference) {
+  for (const SamplingPolicy& policy : policies) {
+    if (const Estimator& row = estimator(policy.estimator); row.needs_reference && !reference) {
+      throw UsageError(fmt::format(
+          "--reference: estimator '{}' compares with one, and none is given; make it with quartet "
+          "reference",
+          row.id));
+    }
+  }
+  return image_of(reference);
 }
 
 bool run_reference(ReferenceRender& render, const ReferenceGoal& goal, int threads,

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 
@@ -24,6 +25,11 @@ std::shared_ptr<const Reference> reference_at(const std::string& path, const Run
 
 /// Its picture, which shares its life; null for null.
 std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Reference>& reference);
+
+/// The same, for lanes that may look at it: throws UsageError where one of them must and there is
+/// none.
+std::shared_ptr<const RadianceImage> truth_for(std::span<const SamplingPolicy> policies,
+                                               const std::shared_ptr<const Reference>& reference);
 
 /// A reference for the run with exactly so many samples a pixel: the cached one, else it is made,
 /// with a progress bar, and cached. What is interrupted is cached too, and gone on with next time.

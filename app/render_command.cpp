@@ -82,8 +82,9 @@ void run_render(const RenderOptions& options, const Program& program) {
   }
   const SamplingPolicy policy = render_policy(options);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  const Run run = prepare_run(options.run, 1);
+  Run run = prepare_run(options.run, 1);
   const auto reference = reference_at(options.reference, run);
+  run.lab.reference = truth_for(std::span(&policy, 1), reference);
   StagedFiles files(output.parent_path());
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height,
           std::span(&policy, 1), run.lab);
@@ -92,6 +93,7 @@ void run_render(const RenderOptions& options, const Program& program) {
   snapshot.settings = run.settings;
   write_output(output, program, snapshot, files);
   print_summary(output, snapshot, reference.get());
+  tell_if_partial(lab, options.run);
   report_rejected(snapshot, options.run);
 }
 

@@ -19,9 +19,9 @@ constexpr double gib = 1024.0 * 1024.0 * 1024.0;
 
 /// A picture that cannot fit should be refused before an hour of work, not after.
 void check_memory(const RenderSettings& settings, std::size_t lanes) {
-  // A pixel of a lane (film with variance, error, counts, plan) and of the store with a few
+  // A pixel of a lane (film with statistics, error, counts, plan) and of the store with a few
   // samples.
-  constexpr double lane_bytes = 120.0;
+  constexpr double lane_bytes = 150.0;
   constexpr double store_bytes = 150.0;
   const double pixels = double(settings.width) * double(settings.height);
   const double needed = pixels * (lane_bytes * double(lanes) + store_bytes);
@@ -144,9 +144,25 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
   command.add_option("--memory", options.memory_gib, "For stored samples, in GiB")
       ->check(number_between(0.001, 1e6))
       ->capture_default_str();
+  command.add_option("--policy", options.policy,
+                     "How errors become sample counts: vote, two-level, batch or converge; the "
+                     "estimator's own if not given");
   command
-      .add_option("--policy", options.policy,
-                  "How errors become sample counts: vote, two-level, batch or converge")
+      .add_option(
+          "--mode", options.mode,
+          "reuse: the samples that decide are the picture, which is biased; unbiased: those "
+          "of a pilot run decide")
+      ->capture_default_str();
+  command
+      .add_option("--first-samples", options.first_samples,
+                  "two-level, batch, converge: samples before the first look; 0: the policy's own")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command
+      .add_option("--batch-samples", options.batch_samples,
+                  "two-level, batch, converge: samples from one look to the next; 0: the policy's "
+                  "own")
+      ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command
       .add_option("--multiplier", options.multiplier,
@@ -163,7 +179,6 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
 
 Run prepare_run(const RunOptions& options, std::size_t lanes) {
   const IntegratorId integrator = find_integrator(options.integrator).key;
-  find_allocation(options.policy);
   Scene scene = open_scene(options.scene, parse_defines(options.defines));
   for (const std::string& warning : scene.warnings) {
     fmt::print(stderr, "quartet: warning: {}\n", warning);
@@ -188,16 +203,31 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   run.lab.memory = std::size_t(options.memory_gib * gib);
   run.lab.statistics.variance = true;
   run.scene = std::make_shared<const TraceScene>(std::move(scene));
+  run.lab.pilot_source = pilot_source(run.scene, run.settings);
   return run;
 }
 
 SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator) {
   SamplingPolicy policy = default_policy(estimator);
-  policy.allocation.kind = find_allocation(options.policy).key;
+  if (!options.policy.empty()) {
+    policy.allocation.kind = find_allocation(options.policy).key;
+  }
+  policy.use = find_sample_use(options.mode).key;
+  policy.allocation.first = options.first_samples;
+  policy.allocation.batch = options.batch_samples;
   policy.allocation.multiplier = options.multiplier;
   policy.allocation.stochastic_rounding = options.stochastic_rounding;
   policy.max_spp = options.max_spp;
   return policy;
+}
+
+void tell_if_partial(const Lab& lab, const RunOptions& options) {
+  if (lab.partial()) {
+    fmt::print(stderr,
+               "quartet: the samples outgrew --memory ({} GiB): the oldest were forgotten, and a "
+               "replay would trace them again\n",
+               options.memory_gib);
+  }
 }
 
 }  // namespace quartet

@@ -25,7 +25,10 @@ struct RunOptions {
   std::vector<float> camera;
   int threads = 0;
   double memory_gib = 2.0;
-  std::string policy = "vote";
+  std::string policy;  ///< empty: the estimator's own
+  std::string mode = "reuse";
+  std::uint16_t first_samples = 0;
+  std::uint16_t batch_samples = 0;
   float multiplier = 0.5f;
   bool stochastic_rounding = false;
   std::uint32_t max_spp = SamplingPolicy{}.max_spp;
@@ -69,5 +72,8 @@ Run prepare_run(const RunOptions& options, std::size_t lanes);
 
 /// The policy that the options ask of an estimator, with its default thresholds.
 SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator);
+
+/// A line on stderr if samples were forgotten for want of memory.
+void tell_if_partial(const Lab& lab, const RunOptions& options);
 
 }  // namespace quartet

@@ -45,6 +45,9 @@ ordered_json policy_json(const SamplingPolicy& policy) {
       std::vector<float>(policy.thresholds.begin(), policy.thresholds.begin() + row.channels);
   json["unit"] = row.unit;
   json["policy"] = allocation(policy.allocation.kind).id;
+  json["mode"] = sample_use(policy.use).id;
+  json["first_samples"] = policy.allocation.first;
+  json["batch_samples"] = policy.allocation.batch;
   json["multiplier"] = policy.allocation.multiplier;
   json["stochastic_rounding"] = policy.allocation.stochastic_rounding;
   json["max_spp"] = policy.max_spp;
@@ -105,18 +108,20 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
   const LaneSnapshot& shown = snapshot.lanes[lane];
   ordered_json settings = settings_json(snapshot.settings);
   settings["policy"] = policy_json(shown.policy);
-  settings["frames"] = shown.history.size();
+  settings["frames"] = shown.history.empty() ? 0 : shown.history.back().frame;
   std::map<std::string, std::string> attributes{
       {"scene", snapshot.scene->scene().name},
       {"settings", settings.dump()},
       {"seed", std::to_string(snapshot.settings.seed)},
       {"version", std::string(version())},
       {"commandLine", command_line},
+      {"mode", std::string(sample_use(shown.policy.use).id)},
       {"varianceMeaning", "Variance.*: unbiased estimate of the variance of the pixel mean"},
   };
   if (!shown.history.empty()) {
     attributes["seconds"] = fmt::format("{:.6g}", shown.history.back().seconds);
     attributes["samples"] = std::to_string(shown.history.back().samples);
+    attributes["pilotSamples"] = std::to_string(shown.history.back().pilot_samples);
   }
   return attributes;
 }
@@ -154,6 +159,7 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
     for (const FrameRecord& record : lane.history) {
       entry["history"].push_back({{"frame", record.frame},
                                   {"samples", record.samples},
+                                  {"pilot_samples", record.pilot_samples},
                                   {"mean_spp", mean_spp(snapshot, record)},
                                   {"max_spp", record.max_spp},
                                   {"refined_pixels", record.refined},
@@ -171,17 +177,18 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
 
 std::string csv_record(const Snapshot& snapshot) {
   std::string csv =
-      "scene,estimator,policy,thresholds,seed,frame,seconds,samples,mean_spp,metric,value\n";
+      "scene,estimator,policy,mode,thresholds,seed,frame,seconds,samples,mean_spp,metric,value\n";
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     const SamplingPolicy& policy = lane.policy;
     std::string row;
     for (const FrameRecord& record : lane.history) {
-      row = fmt::format("{},{},{},{},{},{},{:.6f},{},{:.6f}", snapshot.scene->scene().name,
+      row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{:.6f}", snapshot.scene->scene().name,
                         estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
-                        thresholds_text(policy), snapshot.settings.seed, record.frame,
-                        record.seconds, record.samples, mean_spp(snapshot, record));
+                        sample_use(policy.use).id, thresholds_text(policy), snapshot.settings.seed,
+                        record.frame, record.seconds, record.samples, mean_spp(snapshot, record));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
+      csv += fmt::format("{},pilot_samples,{}\n", row, record.pilot_samples);
       csv += fmt::format("{},refined_share,{:.6f}\n", row,
                          double(record.refined) / double(snapshot.pixels()));
     }

@@ -50,16 +50,14 @@ LabLayout layout_of(const std::string& id) {
 
 /// The window shows all lanes at one frame: the one where the last of them meets its end. To know
 /// it of anything but a number of frames takes a run of its own.
-std::uint32_t frame_of_end(const ScreenshotOptions& options, const Run& run,
+std::uint32_t frame_of_end(const StopConditions& stop, const Run& run,
                            std::span<const SamplingPolicy> policies) {
-  const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  const auto reference = reference_at(options.reference, run);
   if (stop.frames && !stop.spp && !stop.seconds && !stop.error) {
     return *stop.frames;
   }
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
           run.lab);
-  return run_to_end(lab, stop, image_of(reference)).frame;
+  return run_to_end(lab, stop, run.lab.reference).frame;
 }
 
 LabState state_of(const ScreenshotOptions& options, const Run& run) {
@@ -89,10 +87,13 @@ void run_screenshot(const ScreenshotOptions& options) {
     throw UsageError(fmt::format("-o: '{}' is no .png", options.output));
   }
   const PictureSize size = parse_size("--size", options.window);
-  const Run run = prepare_run(options.run, lane_count);
+  const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
+  Run run = prepare_run(options.run, lane_count);
   LabState state = state_of(options, run);
+  run.lab.reference = truth_for(state.request.policies, reference_at(options.reference, run));
+  state.request.reference = run.lab.reference;
   StagedFiles files(output.parent_path());
-  const std::uint32_t frames = frame_of_end(options, run, state.request.policies);
+  const std::uint32_t frames = frame_of_end(stop, run, state.request.policies);
   state.playback.set_target(frames);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;

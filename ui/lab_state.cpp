@@ -32,7 +32,7 @@ void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene) {
 bool same_request(const LabRequest& a, const LabRequest& b) {
   return a.scene == b.scene && a.settings == b.settings && a.policies == b.policies &&
          a.frame == b.frame && a.variance == b.variance && a.memory == b.memory &&
-         a.threads == b.threads;
+         a.threads == b.threads && a.reference == b.reference;
 }
 
 }  // namespace quartet

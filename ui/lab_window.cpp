@@ -109,6 +109,12 @@ void LabWindow::keep_request_consistent() {
     state_.playback.forget();
   }
   request.frame = state_.playback.wanted();
+  // Without the truth there is nothing that such a lane could look at.
+  for (SamplingPolicy& policy : request.policies) {
+    if (!request.reference && estimator(policy.estimator).needs_reference) {
+      policy = default_policy(EstimatorId::uniform);
+    }
+  }
   last_ = request;
 }
 

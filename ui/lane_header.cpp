@@ -27,20 +27,64 @@ std::string lane_name(std::size_t lane, const char* what) {
   return fmt::format("lane{}.{}", lane, what);
 }
 
-bool edit_estimator(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) {
+/// Another estimator brings its thresholds, and its policy unless another than the old one's was
+/// chosen.
+void choose_estimator(const Estimator& row, SamplingPolicy& policy) {
+  if (policy.allocation.kind == estimator(policy.estimator).default_allocation) {
+    policy.allocation.kind = row.default_allocation;
+  }
+  policy.estimator = row.key;
+  policy.thresholds = row.default_thresholds;
+}
+
+bool edit_estimator(Ui& ui, std::size_t lane, SamplingPolicy& policy, bool has_reference,
+                    float width) {
   const std::string name = lane_name(lane, "estimator");
   return combo(ui, name, std::string(estimator(policy.estimator).label), width, [&] {
     bool changed = false;
     for (const Estimator& row : estimators()) {
+      if (row.needs_reference && !has_reference) {
+        ImGui::TextDisabled("%s: needs a reference", std::string(row.label).c_str());
+        continue;
+      }
       if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
                     policy.estimator == row.key, std::string(row.source))) {
-        policy.estimator = row.key;
-        policy.thresholds = row.default_thresholds;
+        choose_estimator(row, policy);
         changed = true;
       }
     }
     return changed;
   });
+}
+
+bool edit_sample_use(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) {
+  const std::string name = lane_name(lane, "mode");
+  const bool chosen = combo(ui, name, std::string(sample_use(policy.use).label), width, [&] {
+    bool changed = false;
+    for (const SampleUseRow& row : sample_uses()) {
+      if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
+                    policy.use == row.key, std::string(row.source))) {
+        policy.use = row.key;
+        changed = true;
+      }
+    }
+    return changed;
+  });
+  tooltip(ui, "What becomes of the samples that decide where more are taken: " +
+                  std::string(sample_use(policy.use).source) + ".");
+  return chosen;
+}
+
+bool edit_count(Ui& ui, const std::string& name, const char* label, std::uint16_t& count) {
+  int value = count;
+  ImGui::SetNextItemWidth(ui.px(110.0f));
+  const bool changed = ImGui::InputInt(label, &value, 0);
+  if (changed) {
+    count = std::uint16_t(std::clamp(value, 0, 65535));
+  }
+  ui.mark(name);
+  tooltip(ui, "0: as the policy's authors have it.");
+  return changed;
 }
 
 bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) {
@@ -68,6 +112,10 @@ bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) 
           changed = true;
         }
         ui.mark(name + ".max_spp");
+        if (policy.allocation.kind != AllocationId::vote) {
+          changed |= edit_count(ui, name + ".first", "first samples", policy.allocation.first);
+          changed |= edit_count(ui, name + ".batch", "batch samples", policy.allocation.batch);
+        }
         return changed;
       });
   tooltip(ui, "How errors become sample counts, by " +
@@ -75,12 +123,14 @@ bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) 
   return chosen;
 }
 
-float policy_combo_width(const Ui& ui) {
+/// Of a combo box that holds any label of a table.
+template <class Row>
+float combo_width(const Ui& ui, std::span<const Row> table) {
   float widest = 0.0f;
-  for (const AllocationRow& row : allocations()) {
+  for (const Row& row : table) {
     widest = std::max(widest, text_width(ui.body, std::string(row.label)));
   }
-  return widest + ui.px(24.0f) + ImGui::GetFrameHeight();
+  return widest + ui.px(20.0f) + ImGui::GetFrameHeight();
 }
 
 /// Nothing for a policy without votes to multiply.
@@ -245,20 +295,25 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   const float gap = ui.px(8.0f);
   const float row = row_height(ui);
   const float mean_width = ui.px(76.0f);
-  const float policy_width = policy_combo_width(ui);
-  const float estimator_width =
-      text_width(ui.body, "√ Kullback–Leibler") + ui.px(20.0f) + ImGui::GetFrameHeight();
+  const float policy_width = combo_width(ui, allocations());
+  const float use_width = combo_width(ui, sample_uses());
+  const float estimator_width = combo_width(ui, estimators());
+  const bool has_reference = frame.state.request.reference != nullptr;
   ScreenRect first = box.cut_top(row);
   draw_mean(frame, lane, first.right(), first.y + ui.px(3.0f));
   first.cut_right(mean_width);
   ImGui::SetCursorScreenPos({first.x, first.y});
-  changed |= edit_estimator(ui, lane, edited, std::min(first.width, estimator_width));
+  changed |=
+      edit_estimator(ui, lane, edited, has_reference, std::min(first.width, estimator_width));
   tooltip(ui, std::string(estimator(edited.estimator).source));
   if (is_wide(ui, box.width)) {
     first.cut_left(estimator_width + gap);
     ImGui::SetCursorScreenPos({first.x, first.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
     first.cut_left(policy_width + gap);
+    ImGui::SetCursorScreenPos({first.x, first.y});
+    changed |= edit_sample_use(ui, lane, edited, use_width);
+    first.cut_left(use_width + gap);
     changed |= edit_multiplier(ui, lane, edited, first.cut_left(ui.px(160.0f)));
     ScreenRect second = box.cut_top(row);
     ScreenRect numbers = second.cut_right(0.5f * second.width);
@@ -271,6 +326,9 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     ImGui::SetCursorScreenPos({second.x, second.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
     second.cut_left(policy_width + gap);
+    ImGui::SetCursorScreenPos({second.x, second.y});
+    changed |= edit_sample_use(ui, lane, edited, use_width);
+    second.cut_left(use_width + gap);
     changed |= edit_multiplier(ui, lane, edited, second);
     changed |= edit_thresholds(ui, lane, edited, box.cut_top(row));
     draw_numbers(frame, lane, box, false);

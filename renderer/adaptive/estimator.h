@@ -8,10 +8,33 @@
 
 namespace quartet {
 
-enum class EstimatorId { uniform, contrast, kl, chi2, hellinger };
+enum class EstimatorId {
+  uniform,
+  contrast,
+  kl,
+  chi2,
+  hellinger,
+  confidence,
+  variance,
+  half_buffer,
+  cycles,
+  rigau_kl,
+  rigau_chi2,
+  rigau_hellinger,
+  oracle,
+};
+
+enum class AllocationId;  // policy.h
 
 /// One threshold a channel of the estimator; the rest is not looked at.
 using Thresholds = std::array<float, 3>;
+
+/// What an estimator looks at.
+struct EstimatorInput {
+  const Film& film;  ///< with the statistics that the estimator needs
+  /// The true radiance of every pixel, for an estimator that needs it; else it may be empty.
+  std::span<const glm::vec3> reference = {};
+};
 
 /// One row of the table of error estimators: everything the program knows about one. Combo boxes,
 /// command line, file headers and tests walk the table.
@@ -25,9 +48,19 @@ struct Estimator {
   /// Errors a pixel: 3 (R, G, B), 1, or 0 for a method that never asks for more.
   int channels;
   Thresholds default_thresholds;
-  /// Writes the raw error of every pixel, channel by channel (channels × film.size()). Null where
-  /// channels is 0. Runs on the threads of the current TBB arena.
-  void (*estimate)(const Film& film, std::span<float> error);
+  /// Writes the raw error of every pixel, channel by channel (channels × film.size()): finite and
+  /// not negative, or infinite where a pixel has too few samples to be judged, which is above every
+  /// threshold. Null where channels is 0. Runs on the threads of the current TBB arena.
+  void (*estimate)(const EstimatorInput& input, std::span<float> error);
+  /// The policy that its authors pair it with.
+  AllocationId default_allocation;
+  FilmStatistics needs = {};
+  bool needs_reference = false;
+  /// Samples below which a pixel is not done, whatever its error; 0 if the error alone decides.
+  std::uint32_t (*minimum_samples)(const Thresholds& thresholds) = nullptr;
+  /// Samples between two looks at a pixel, under policies that leave it to the estimator; 0: the
+  /// policy's own.
+  std::uint16_t look_every = 0;
 };
 
 std::span<const Estimator> estimators();

@@ -1,12 +1,56 @@
 #include "renderer/adaptive/film.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <numeric>
+#include <type_traits>
 
-#include "renderer/trace/running_mean.h"
+#include "renderer/adaptive/spread.h"
 
 namespace quartet {
+namespace {
+
+/// As luminance() of image.h, in double: the spread of nearly equal samples is smaller than what
+/// single precision rounds.
+double exact_luminance(const glm::vec3& c) {
+  return 0.2126 * double(c.r) + 0.7152 * double(c.g) + 0.0722 * double(c.b);
+}
+
+/// Zeros, or no memory.
+template <class T>
+void allocate(std::vector<T>& plane, std::size_t pixels, bool wanted) {
+  if (wanted) {
+    plane.assign(pixels, T{});
+  } else {
+    std::vector<T>().swap(plane);
+  }
+}
+
+}  // namespace
+
+bool is_in_half(SampleHalf half, std::uint32_t index) {
+  switch (half) {
+    case SampleHalf::none:
+      break;
+    case SampleHalf::alternate:
+      return index % 2 == 0;
+    case SampleHalf::class_a:
+      return std::popcount(index & 0xaaaaaaaau) % 2 == 1;
+  }
+  return false;
+}
+
+FilmStatistics operator|(const FilmStatistics& a, const FilmStatistics& b) {
+  assert(a.half == SampleHalf::none || b.half == SampleHalf::none || a.half == b.half);
+  FilmStatistics both;
+  both.variance = a.variance || b.variance;
+  both.chi2 = a.chi2 || b.chi2;
+  both.kl = a.kl || b.kl;
+  both.hellinger = a.hellinger || b.hellinger;
+  both.half = a.half != SampleHalf::none ? a.half : b.half;
+  return both;
+}
 
 Film::Film(int width, int height, FilmStatistics statistics)
     : width_(width), height_(height), statistics_(statistics) {
@@ -16,15 +60,26 @@ Film::Film(int width, int height, FilmStatistics statistics)
   }
   counts_.assign(pixels, 0);
   rejected_.assign(pixels, 0);
-  if (statistics.variance) {
-    deviations_.assign(pixels, glm::dvec3(0.0));
-  }
+  allocate_statistics();
+}
+
+/// Zeros for what is asked for, no memory for what is not.
+void Film::allocate_statistics() {
+  const FilmStatistics& keep = statistics_;
+  allocate(deviations_, size(), keep.variance);
+  allocate(spreads_[std::size_t(Divergence::chi2)], size(), keep.chi2);
+  allocate(spreads_[std::size_t(Divergence::kl)], size(), keep.kl);
+  allocate(spreads_[std::size_t(Divergence::hellinger)], size(), keep.hellinger);
+  allocate(luminances_, size(), keep.chi2 || keep.kl || keep.hellinger);
+  allocate(halves_, size(), keep.half != SampleHalf::none);
 }
 
 void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
   keep_sums();
   RunningMean running{sums_[pixel], counts_[pixel]};
+  std::uint32_t index = counts_[pixel] + rejected_[pixel];
   for (const glm::vec3& sample : samples) {
+    const std::uint32_t i = index++;
     if (!acceptable(sample)) {
       ++rejected_[pixel];
       continue;
@@ -36,10 +91,37 @@ void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
       const glm::dvec3 d = n * glm::dvec3(sample) - running.sum;
       deviations_[pixel] += d * d / (n * (n + 1.0));
     }
+    if (!luminances_.empty()) {
+      add_luminance(pixel, double(running.count), exact_luminance(sample));
+    }
+    if (!halves_.empty() && is_in_half(statistics_.half, i)) {
+      halves_[pixel].add(sample);
+    }
     running.add(sample);
   }
   sums_[pixel] = running.sum;
   put(pixel, running.count, running.mean());
+}
+
+/// One more luminance, after `count` of them.
+void Film::add_luminance(std::size_t pixel, double count, double luminance) {
+  double& mean = luminances_[pixel];
+  if (count == 0.0) {
+    mean = luminance;
+    return;
+  }
+  // Not from a sum: that of equal values is rounded, and they would seem to differ.
+  const double moved = mean + (luminance - mean) / (count + 1.0);
+  const auto add = [&]<Divergence divergence>(std::integral_constant<Divergence, divergence>) {
+    std::vector<double>& spreads = spreads_[std::size_t(divergence)];
+    if (!spreads.empty()) {
+      spreads[pixel] += spread_step<divergence>(count, mean, luminance, moved);
+    }
+  };
+  add(std::integral_constant<Divergence, Divergence::chi2>());
+  add(std::integral_constant<Divergence, Divergence::kl>());
+  add(std::integral_constant<Divergence, Divergence::hellinger>());
+  mean = moved;
 }
 
 std::uint32_t Film::reject(std::size_t pixel, std::span<const glm::vec3> samples) {
@@ -66,14 +148,15 @@ void Film::restore_sum(std::size_t pixel, std::span<const glm::vec3> samples) {
   sums_[pixel] = running.sum;
 }
 
-void Film::clear() {
+void Film::restart(FilmStatistics statistics) {
+  statistics_ = statistics;
   for (std::vector<float>& plane : means_) {
     std::fill(plane.begin(), plane.end(), 0.0f);
   }
   std::fill(counts_.begin(), counts_.end(), 0u);
   std::fill(rejected_.begin(), rejected_.end(), 0u);
-  std::fill(deviations_.begin(), deviations_.end(), glm::dvec3(0.0));
   sums_.clear();
+  allocate_statistics();
 }
 
 std::uint64_t Film::total_rejected() const {
@@ -96,7 +179,12 @@ RadianceImage Film::image() const {
 
 std::size_t Film::bytes() const {
   constexpr std::size_t per_pixel = 3 * sizeof(float) + 2 * sizeof(std::uint32_t);
-  return size() * per_pixel + (sums_.size() + deviations_.size()) * sizeof(glm::dvec3);
+  std::size_t doubles = luminances_.size();
+  for (const std::vector<double>& plane : spreads_) {
+    doubles += plane.size();
+  }
+  return size() * per_pixel + (sums_.size() + deviations_.size()) * sizeof(glm::dvec3) +
+         doubles * sizeof(double) + halves_.size() * sizeof(RunningMean);
 }
 
 }  // namespace quartet

@@ -6,21 +6,49 @@
 #include <span>
 #include <vector>
 
+#include "renderer/adaptive/divergence.h"
 #include "renderer/image/image.h"
+#include "renderer/trace/running_mean.h"
 
 namespace quartet {
+
+/// A part of a pixel's samples, about half of them, whose mean is kept beside that of all.
+enum class SampleHalf {
+  none,
+  /// Samples 0, 2, 4, …: Dammertz et al. 2010. The sampler shuffles indices, so that these are no
+  /// fixed half of the pixel's area.
+  alternate,
+  /// Samples with an odd number of ones among the bits 1, 3, 5, … of their index, as Cycles has it
+  /// after Christensen, Kensler and Kilpatrick, "Progressive Multi-Jittered Sample Sequences",
+  /// EGSR 2018, section 10.2: half of every whole four, and itself well stratified.
+  class_a,
+};
+
+bool is_in_half(SampleHalf half, std::uint32_t index);
 
 /// What a film keeps beside the mean. Each costs memory and time only where it is asked for.
 struct FilmStatistics {
   bool variance = false;  ///< sample variance per channel
+  /// How far the luminances of a pixel's samples spread, by each divergence: spread.h. That of
+  /// chi2 is the sum of squared deviations, from which the variance of the luminance follows.
+  bool chi2 = false;
+  bool kl = false;
+  bool hellinger = false;
+  SampleHalf half = SampleHalf::none;
+
+  bool any() const { return *this != FilmStatistics{}; }
   bool operator==(const FilmStatistics&) const = default;
 };
+
+/// What either asks for. Only one of the two may want a half.
+FilmStatistics operator|(const FilmStatistics& a, const FilmStatistics& b);
 
 /// The statistics of the samples that each pixel has taken. What the estimators read is planar,
 /// because they run over it in vectors.
 ///
 /// A film gets its means in one of two ways, with the same result to the bit: it adds up samples,
-/// or it is given means that somebody else has added up. Only the first takes memory for sums.
+/// or it is given means that somebody else has added up. Only the first takes memory for sums, and
+/// only the first gives statistics.
 /// Calls for different pixels may come from different threads, but for the first add().
 class Film {
  public:
@@ -31,8 +59,9 @@ class Film {
   std::size_t size() const { return counts_.size(); }
   FilmStatistics statistics() const { return statistics_; }
 
-  /// Adds samples (linear radiance) to a pixel, in this order. A sample with a component that is
-  /// negative or not finite does not enter any statistic; it is counted as rejected.
+  /// Adds samples (linear radiance) to a pixel, in this order: those with the indices from the
+  /// number of samples before them on. A sample with a component that is negative or not finite
+  /// does not enter any statistic; it is counted as rejected.
   void add(std::size_t pixel, std::span<const glm::vec3> samples);
 
   /// Replaces the mean of a pixel by that of `count` samples.
@@ -52,8 +81,8 @@ class Film {
   /// Takes the sum of a pixel from all samples that are in its mean.
   void restore_sum(std::size_t pixel, std::span<const glm::vec3> samples);
 
-  /// Forgets all samples.
-  void clear();
+  /// Forgets all samples, and keeps these statistics of the next ones.
+  void restart(FilmStatistics statistics);
 
   /// Mean radiance of one channel (0 red, 1 green, 2 blue) of every pixel; 0 before the first
   /// sample.
@@ -67,11 +96,24 @@ class Film {
   /// Needs FilmStatistics::variance.
   glm::dvec3 variance_of_mean(std::size_t pixel) const;
 
+  /// Mean of the Rec. 709 luminances of a pixel's samples, exactly theirs where all are equal.
+  /// Needs one of chi2, kl and hellinger.
+  double mean_luminance(std::size_t pixel) const { return luminances_[pixel]; }
+  /// B of spread.h over the samples of a pixel; needs that statistic.
+  double spread(Divergence divergence, std::size_t pixel) const {
+    return spreads_[std::size_t(divergence)][pixel];
+  }
+  /// The samples of a pixel that are in FilmStatistics::half, which must be asked for.
+  const RunningMean& half(std::size_t pixel) const { return halves_[pixel]; }
+
   RadianceImage image() const;
 
   std::size_t bytes() const;  ///< memory in use
 
  private:
+  void add_luminance(std::size_t pixel, double count, double luminance);
+  void allocate_statistics();
+
   int width_;
   int height_;
   FilmStatistics statistics_;
@@ -81,6 +123,9 @@ class Film {
   std::vector<glm::dvec3> sums_;
   /// Sums of squared deviations from the mean.
   std::vector<glm::dvec3> deviations_;
+  std::vector<double> luminances_;              // their means
+  std::array<std::vector<double>, 3> spreads_;  // by Divergence
+  std::vector<RunningMean> halves_;
 };
 
 }  // namespace quartet

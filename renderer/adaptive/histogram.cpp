@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "renderer/fast_log2.h"
@@ -32,8 +33,9 @@ void fill_histogram(std::span<const float> errors, ErrorHistogram& histogram) {
   constexpr auto bins_per_octave =
       float(ErrorHistogram::bins_per_decade * std::numbers::ln2 / std::numbers::ln10);
   constexpr auto first = float(-ErrorHistogram::first_exponent * ErrorHistogram::bins_per_decade);
-  // Bin 0 is for no error, the others come after it.
-  std::array<std::uint32_t, ErrorHistogram::bins + 1> pixels{};
+  // Bin 0 is for no error, the others come after it, and the last is for infinite ones.
+  constexpr int not_judged = ErrorHistogram::bins + 1;
+  std::array<std::uint32_t, not_judged + 1> pixels{};
   constexpr std::size_t block = 512;
   std::array<std::int32_t, block> places;
   for (std::size_t start = 0; start < errors.size(); start += block) {
@@ -44,14 +46,16 @@ void fill_histogram(std::span<const float> errors, ErrorHistogram& histogram) {
       float place = fast_log2(error[i]) * bins_per_octave + first;
       place = place > 0.0f ? place : 0.0f;
       place = place < float(ErrorHistogram::bins - 1) ? place : float(ErrorHistogram::bins - 1);
-      places[i] = error[i] > 0.0f ? std::int32_t(place) + 1 : 0;
+      const std::int32_t bin = error[i] > 0.0f ? std::int32_t(place) + 1 : 0;
+      places[i] = error[i] > std::numeric_limits<float>::max() ? not_judged : bin;
     }
     for (std::size_t i = 0; i < size; ++i) {
       ++pixels[std::size_t(places[i])];
     }
   }
   histogram.zero = pixels[0];
-  std::copy(pixels.begin() + 1, pixels.end(), histogram.pixels.begin());
+  histogram.infinite = pixels[not_judged];
+  std::copy_n(pixels.begin() + 1, ErrorHistogram::bins, histogram.pixels.begin());
 }
 
 }  // namespace quartet

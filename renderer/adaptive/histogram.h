@@ -26,7 +26,8 @@ struct ErrorHistogram {
 
   /// Errors outside of all bins are in the outermost ones.
   std::array<std::uint32_t, bins> pixels{};
-  std::uint32_t zero = 0;  ///< pixels without error, which have no place on the axis
+  std::uint32_t zero = 0;      ///< pixels without error, which have no place on the axis
+  std::uint32_t infinite = 0;  ///< nor have those that cannot be judged yet
 
   static double begin_of(int bin);  ///< where a bin begins; for `bins`, where the last one ends
 };

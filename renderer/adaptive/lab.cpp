@@ -1,7 +1,10 @@
 #include "renderer/adaptive/lab.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 #include "renderer/parallel.h"
 #include "renderer/scene/synthetic.h"
@@ -10,13 +13,56 @@ namespace quartet {
 
 Lab::Lab(SampleSource source, int width, int height, std::span<const SamplingPolicy> policies,
          const LabOptions& options)
-    : source_(std::move(source)),
-      options_(options),
-      store_(width, height, options.memory, !options.statistics.variance),
+    : options_(options),
+      // A film with statistics of its own adds samples up, and has no use for means.
+      shown_{std::move(source),
+             SampleStore(width, height, options.memory, !options.statistics.any())},
       arena_(options.threads > 0 ? options.threads : tbb::task_arena::automatic) {
+  check(policies, options_.reference.get());
   for (const SamplingPolicy& policy : policies) {
-    lanes_.emplace_back(width, height, policy, options_.statistics);
+    lanes_.emplace_back(width, height, policy, lane_inputs());
   }
+  make_pilot();
+}
+
+void Lab::check(std::span<const SamplingPolicy> policies, const RadianceImage* reference) const {
+  if (reference && (reference->width() != width() || reference->height() != height())) {
+    throw std::invalid_argument(fmt::format("the reference has {}x{} pixels and the picture {}x{}",
+                                            reference->width(), reference->height(), width(),
+                                            height()));
+  }
+  for (const SamplingPolicy& policy : policies) {
+    const Estimator& row = estimator(policy.estimator);
+    if (row.needs_reference && !reference) {
+      throw std::invalid_argument(
+          fmt::format("estimator '{}' compares with a reference, and there is none", row.id));
+    }
+    if (policy.use == SampleUse::unbiased && !options_.pilot_source) {
+      throw std::invalid_argument(
+          fmt::format("mode '{}' needs samples for its pilot run, and there is no source of them",
+                      sample_use(policy.use).id));
+    }
+  }
+}
+
+/// The store of pilot runs, with the first lane that has one; the two share the memory.
+void Lab::make_pilot() {
+  const bool wanted = std::ranges::any_of(
+      lanes_, [](const Lane& lane) { return lane.policy().use == SampleUse::unbiased; });
+  if (wanted && !pilot_) {
+    const std::size_t half = options_.memory / 2;
+    pilot_.emplace(options_.pilot_source,
+                   SampleStore(width(), height(), half, !options_.statistics.any()));
+    shown_.store.set_memory_budget(half);
+  }
+}
+
+LaneStores Lab::stores() const {
+  return {shown_.store, pilot_ ? &pilot_->store : nullptr};
+}
+
+bool Lab::takes_from(const Lane& lane, const Stream& stream) const {
+  return &stream == &shown_ || lane.policy().use == SampleUse::unbiased;
 }
 
 std::uint32_t Lab::frame() const {
@@ -27,26 +73,41 @@ std::uint32_t Lab::frame() const {
   return behind;
 }
 
+std::uint64_t Lab::stored_samples() const {
+  return shown_.store.stored() + (pilot_ ? pilot_->store.stored() : 0);
+}
+
+std::size_t Lab::stored_bytes() const {
+  return shown_.store.bytes() + (pilot_ ? pilot_->store.bytes() : 0);
+}
+
+bool Lab::partial() const {
+  return shown_.store.partial() || (pilot_ && pilot_->store.partial());
+}
+
 bool Lab::run_frame(std::stop_token stop) {
   const std::uint32_t behind = frame();
   bool finished = false;
   arena_.execute([&] {
-    finished = trace(behind, stop);
+    finished = trace(shown_, behind, stop) && (!pilot_ || trace(*pilot_, behind, stop));
     if (!finished) {
       return;
     }
     advance(behind);
-    forget();
+    forget(shown_);
+    if (pilot_) {
+      forget(*pilot_);
+    }
   });
   return finished;
 }
 
-/// Advances the lanes at a frame, whose samples the store holds.
+/// Advances the lanes at a frame, whose samples the stores hold.
 void Lab::advance(std::uint32_t frame) {
   std::vector<Lane*> moving;
   for (Lane& lane : lanes_) {
     if (lane.frame() == frame) {
-      lane.begin_frame(store_);
+      lane.begin_frame(stores());
       moving.push_back(&lane);
     }
   }
@@ -54,10 +115,10 @@ void Lab::advance(std::uint32_t frame) {
   // others find there. The share that each is charged is therefore a little less than what it would
   // take alone, of a time that is small beside that of tracing.
   const auto start = std::chrono::steady_clock::now();
-  parallel_for(std::size_t(store_.tile_rows()), 1, [&](std::size_t first, std::size_t last) {
+  parallel_for(std::size_t(shown_.store.tile_rows()), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
       for (Lane* lane : moving) {
-        lane->take(store_, int(row));
+        lane->take(stores(), int(row));
       }
     }
   });
@@ -68,10 +129,13 @@ void Lab::advance(std::uint32_t frame) {
   }
 }
 
-/// Traces what the store lacks for the lanes at a frame.
-bool Lab::trace(std::uint32_t frame, std::stop_token stop) {
+/// Traces what a store lacks for the lanes at a frame.
+bool Lab::trace(Stream& stream, std::uint32_t frame, std::stop_token stop) {
+  const auto moves = [&](const Lane& lane) {
+    return lane.frame() == frame && takes_from(lane, stream);
+  };
   const auto lacking = [&](const Lane& lane) {
-    return lane.frame() == frame && !store_.holds(lane.taken(), lane.plan().wanted);
+    return moves(lane) && !stream.store.holds(lane.taken(), lane.plan().wanted);
   };
   if (std::none_of(lanes_.begin(), lanes_.end(), lacking)) {
     return true;
@@ -80,7 +144,7 @@ bool Lab::trace(std::uint32_t frame, std::stop_token stop) {
   begin_.assign(pixels, UINT32_MAX);
   end_.assign(pixels, 0);
   for (const Lane& lane : lanes_) {
-    if (lane.frame() != frame) {
+    if (!moves(lane)) {
       continue;
     }
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -90,38 +154,53 @@ bool Lab::trace(std::uint32_t frame, std::stop_token stop) {
       end_[i] = std::max(end_[i], wanted > 0 ? taken + wanted : 0);
     }
   }
-  return store_.require(begin_, end_, source_, store_.traced() == 0 ? std::stop_token() : stop);
+  return stream.store.require(begin_, end_, stream.source,
+                              stream.store.traced() == 0 ? std::stop_token() : stop);
 }
 
-/// Lets the store give up what costs least to do without, where memory is short: first the means,
+/// Lets a store give up what costs least to do without, where memory is short: first the means,
 /// without which a replay is slower, then what every lane has used, which a replay must trace
 /// again.
-void Lab::forget() {
-  if (store_.bytes() <= options_.memory) {
+void Lab::forget(Stream& stream) {
+  SampleStore& store = stream.store;
+  if (!store.is_over_budget()) {
     return;
   }
-  if (store_.has_means()) {
+  const bool is_shown = &stream == &shown_;
+  if (store.has_means()) {
     for (Lane& lane : lanes_) {
-      lane.catch_up(store_);
+      if (is_shown) {
+        lane.catch_up_shown(store);
+      } else {
+        lane.catch_up_pilot(store);
+      }
     }
-    store_.forget_means();
-    if (store_.bytes() <= options_.memory) {
+    store.forget_means();
+    if (!store.is_over_budget()) {
       return;
     }
   }
-  std::vector<std::uint32_t> used(lanes_.front().taken().begin(), lanes_.front().taken().end());
+  std::vector<std::uint32_t> used(std::size_t(width()) * std::size_t(height()), UINT32_MAX);
   for (const Lane& lane : lanes_) {
-    std::transform(used.begin(), used.end(), lane.taken().begin(), used.begin(),
-                   [](std::uint32_t a, std::uint32_t b) { return std::min(a, b); });
+    if (takes_from(lane, stream)) {
+      std::transform(used.begin(), used.end(), lane.taken().begin(), used.begin(),
+                     [](std::uint32_t a, std::uint32_t b) { return std::min(a, b); });
+    }
   }
-  store_.trim(used);
+  store.trim(used);
 }
 
 void Lab::set_policy(std::size_t lane, const SamplingPolicy& policy) {
-  arena_.execute([&] { lanes_[lane].restart(policy); });
+  check(std::span(&policy, 1), options_.reference.get());
+  arena_.execute([&] { lanes_[lane].restart(policy, lane_inputs()); });
+  make_pilot();
 }
 
-void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics) {
+void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics,
+                    std::shared_ptr<const RadianceImage> reference) {
+  check(policies, reference.get());
+  const bool other_truth = reference != options_.reference;
+  options_.reference = std::move(reference);
   if (statistics != options_.statistics) {
     options_.statistics = statistics;
     lanes_.clear();
@@ -131,11 +210,13 @@ void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics sta
   }
   for (std::size_t i = 0; i < policies.size(); ++i) {
     if (i == lanes_.size()) {
-      lanes_.emplace_back(width(), height(), policies[i], statistics);
-    } else if (lanes_[i].policy() != policies[i]) {
+      lanes_.emplace_back(width(), height(), policies[i], lane_inputs());
+    } else if (lanes_[i].policy() != policies[i] ||
+               (other_truth && estimator(policies[i].estimator).needs_reference)) {
       set_policy(i, policies[i]);
     }
   }
+  make_pilot();
 }
 
 void Lab::rewind_past(std::uint32_t frame) {
@@ -160,6 +241,16 @@ SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
                                                              std::span<glm::vec3> radiance) {
     trace(*scene, settings, camera, x, y, first, radiance);
   };
+}
+
+SampleSource pilot_source(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings) {
+  RenderSettings other = settings;
+  // The finalizer of SplitMix64: a bijection, so that no two seeds share their pilot's.
+  std::uint64_t x = settings.seed + 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  other.seed = x ^ (x >> 31);
+  return sample_source(std::move(scene), other);
 }
 
 }  // namespace quartet

@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -15,24 +16,38 @@ namespace quartet {
 
 struct LabOptions {
   int threads = 0;                            ///< 0: one a processor
-  std::size_t memory = std::size_t(2) << 30;  ///< of the sample store, bytes
+  std::size_t memory = std::size_t(2) << 30;  ///< of the sample stores, bytes
   FilmStatistics statistics;                  ///< beside what the estimators need
+  /// The truth, for estimators that need it; as large as the picture.
+  std::shared_ptr<const RadianceImage> reference;
+  /// Samples with random numbers of their own, for SampleUse::unbiased; see pilot_source().
+  SampleSource pilot_source;
 };
 
-/// Several lanes over one store of samples.
+/// Several lanes over one store of samples, and a second one for pilot runs where a lane has one.
 class Lab {
  public:
+  /// Throws std::invalid_argument where a policy needs a reference or a pilot source that is not
+  /// there, or a reference is of another size than the picture; so do set_policy and set_lanes.
   Lab(SampleSource source, int width, int height, std::span<const SamplingPolicy> policies,
       const LabOptions& options = {});
 
-  int width() const { return store_.width(); }
-  int height() const { return store_.height(); }
+  int width() const { return shown_.store.width(); }
+  int height() const { return shown_.store.height(); }
   std::span<const Lane> lanes() const { return lanes_; }
-  const SampleStore& store() const { return store_; }
+  const SampleStore& store() const { return shown_.store; }
+  /// Null if no lane has had a pilot run.
+  const SampleStore* pilot_store() const { return pilot_ ? &pilot_->store : nullptr; }
   /// The frame that the lanes furthest behind have finished.
   std::uint32_t frame() const;
 
-  /// Advances the lanes that are furthest behind by one frame, tracing what the store lacks.
+  // Of both stores:
+  std::uint64_t stored_samples() const;
+  std::size_t stored_bytes() const;
+  /// Whether samples were ever forgotten, so that a replay must trace them again.
+  bool partial() const;
+
+  /// Advances the lanes that are furthest behind by one frame, tracing what the stores lack.
   /// Returns false if `stop` ended it early: then no lane has moved, and what was traced is kept. A
   /// store without samples is filled with its first ones whatever `stop` says.
   bool run_frame(std::stop_token stop = {});
@@ -40,21 +55,35 @@ class Lab {
   /// Gives a lane another policy: it starts again at frame 0, out of stored samples.
   void set_policy(std::size_t lane, const SamplingPolicy& policy);
 
-  /// Gives the lab these lanes. One whose policy and statistics stay as they are keeps its frame;
-  /// the others start again at frame 0, out of stored samples.
-  void set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics);
+  /// Gives the lab these lanes. One whose policy and statistics stay as they are, and whose
+  /// reference does if it needs one, keeps its frame; the others start again at frame 0, out of
+  /// stored samples.
+  void set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics,
+                 std::shared_ptr<const RadianceImage> reference = nullptr);
 
-  /// Back to frame 0, for all lanes that are past `frame`; the store is kept.
+  /// Back to frame 0, for all lanes that are past `frame`; the stores are kept.
   void rewind_past(std::uint32_t frame);
 
  private:
-  void advance(std::uint32_t frame);
-  bool trace(std::uint32_t frame, std::stop_token stop);
-  void forget();
+  /// Where samples come from, and where they are kept.
+  struct Stream {
+    SampleSource source;
+    SampleStore store;
+  };
 
-  SampleSource source_;
+  void check(std::span<const SamplingPolicy> policies, const RadianceImage* reference) const;
+  void make_pilot();
+  LaneStores stores() const;
+  LaneInputs lane_inputs() const { return {options_.statistics, options_.reference}; }
+  bool takes_from(const Lane& lane, const Stream& stream) const;
+
+  void advance(std::uint32_t frame);
+  bool trace(Stream& stream, std::uint32_t frame, std::stop_token stop);
+  void forget(Stream& stream);
+
   LabOptions options_;
-  SampleStore store_;
+  Stream shown_;
+  std::optional<Stream> pilot_;
   std::vector<Lane> lanes_;
   // Samples that a frame needs, first and past the last of each pixel.
   std::vector<std::uint32_t> begin_;
@@ -64,5 +93,9 @@ class Lab {
 
 /// The tracer as a source of samples.
 SampleSource sample_source(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings);
+
+/// The same with other random numbers: those of a seed that the settings' decide and that no one
+/// would choose.
+SampleSource pilot_source(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings);
 
 }  // namespace quartet

@@ -91,6 +91,8 @@ void LabWorker::make_lab() {
   options.threads = request.threads;
   options.memory = request.memory;
   options.statistics.variance = request.variance;
+  options.reference = request.reference;
+  options.pilot_source = watched(pilot_source(request.scene, request.settings));
   lab_ = std::make_unique<Lab>(watched(sample_source(request.scene, request.settings)),
                                request.settings.width, request.settings.height, request.policies,
                                options);
@@ -107,7 +109,7 @@ void LabWorker::change_lab() {
   }
   FilmStatistics statistics;
   statistics.variance = request.variance;
-  lab_->set_lanes(request.policies, statistics);
+  lab_->set_lanes(request.policies, statistics, request.reference);
   if (is_answered_by_shown()) {
     publish_shown_again();
     return;
@@ -231,6 +233,7 @@ bool LabWorker::snapshot_is_due() const {
 bool LabWorker::is_answered_by_shown() const {
   const LabRequest& request = current_->request;
   return shown_ && shown_->frame == request.frame && shown_variance_ == request.variance &&
+         shown_reference_ == request.reference &&
          std::ranges::equal(shown_->lanes, request.policies, {}, &LaneSnapshot::policy);
 }
 
@@ -239,6 +242,7 @@ void LabWorker::publish_lanes() {
   copy_lanes(*lab_, *snapshot);
   snapshot->scene = current_->request.scene;
   snapshot->settings = current_->request.settings;
+  snapshot->reference = current_->request.reference;
   publish(std::move(snapshot));
 }
 
@@ -254,6 +258,7 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   snapshot->request = current_->number;
   shown_ = pool_->publish(std::move(snapshot));
   shown_variance_ = current_->request.variance;
+  shown_reference_ = current_->request.reference;
   owes_first_picture_ = false;
   answered_ = true;
   complete_ = shown_->frame == current_->request.frame || has_run_out();
@@ -268,11 +273,10 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
 }
 
 void LabWorker::describe_lab() {
-  const SampleStore& store = lab_->store();
   status_.frame = lab_->frame();
-  status_.stored_samples = store.stored();
-  status_.stored_bytes = store.bytes();
-  status_.partial = store.partial();
+  status_.stored_samples = lab_->stored_samples();
+  status_.stored_bytes = lab_->stored_bytes();
+  status_.partial = lab_->partial();
 }
 
 void LabWorker::make_status_current() {

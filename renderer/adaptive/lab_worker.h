@@ -66,6 +66,7 @@ class LabWorker {
 
   std::shared_ptr<const Snapshot> shown_;  // the last one published of this lab
   bool shown_variance_ = false;
+  std::shared_ptr<const RadianceImage> shown_reference_;
   std::uint64_t published_ = 0;
   Clock::time_point published_at_;
 

@@ -4,24 +4,56 @@
 #include <cassert>
 #include <chrono>
 
-#include "renderer/parallel.h"
+#include "renderer/adaptive/film_feed.h"
 
 namespace quartet {
 namespace {
 
-// Pixels handed to one thread at a time; a smaller piece costs more to hand out than it gains.
-constexpr std::size_t grain_pixels = 1 << 12;
+/// What the shown film keeps; a pilot keeps what the estimator needs.
+FilmStatistics shown_statistics(const SamplingPolicy& policy, const LaneInputs& inputs) {
+  return policy.use == SampleUse::unbiased ? inputs.statistics
+                                           : inputs.statistics | estimator(policy.estimator).needs;
+}
+
+/// Whether this frame is looked up; else the film is made ready to add.
+bool begin_film(Film& film, const SampleStore& store, std::uint32_t frame) {
+  if (looks_up(film, store)) {
+    return true;
+  }
+  // What was looked up before must have been summed up.
+  assert(film.has_sums() || frame == 0);
+  static_cast<void>(frame);
+  film.keep_sums();
+  return false;
+}
+
+void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_up_store) {
+  if (looks_up_store) {
+    look_up(film, samples, tile_row);
+  } else {
+    accumulate(film, samples, tile_row);
+  }
+}
 
 }  // namespace
 
-Lane::Lane(int width, int height, const SamplingPolicy& policy, FilmStatistics statistics)
-    : policy_(policy), film_(width, height, statistics), taken_(film_.size(), 0) {
-  replan();
+Lane::Lane(int width, int height, const SamplingPolicy& policy, const LaneInputs& inputs)
+    : film_(width, height), taken_(film_.size(), 0) {
+  restart(policy, inputs);
 }
 
-void Lane::restart(const SamplingPolicy& policy) {
+void Lane::restart(const SamplingPolicy& policy, const LaneInputs& inputs) {
   policy_ = policy;
-  film_.clear();
+  const Estimator& row = estimator(policy.estimator);
+  reference_ = row.needs_reference ? inputs.reference : nullptr;
+  film_.restart(shown_statistics(policy, inputs));
+  if (policy.use == SampleUse::reuse) {
+    pilot_.reset();
+  } else if (pilot_) {
+    pilot_->restart(row.needs);
+  } else {
+    pilot_.emplace(film_.width(), film_.height(), row.needs);
+  }
   error_.clear();
   std::fill(taken_.begin(), taken_.end(), 0u);
   history_.clear();
@@ -29,25 +61,22 @@ void Lane::restart(const SamplingPolicy& policy) {
   replan();
 }
 
-void Lane::begin_frame(const SampleStore& store) {
-  rows_.assign(std::size_t(store.tile_rows()), {});
-  looks_up_ = store.has_means() && !film_.has_sums() && !film_.statistics().variance;
-  assert(looks_up_ || film_.has_sums() || frame() == 0);
-  if (!looks_up_) {
-    film_.keep_sums();
+void Lane::begin_frame(const LaneStores& stores) {
+  rows_.assign(std::size_t(stores.shown.tile_rows()), {});
+  looks_up_shown_ = begin_film(film_, stores.shown, frame());
+  if (pilot_) {
+    looks_up_pilot_ = begin_film(*pilot_, *stores.pilot, frame());
   }
 }
 
-void Lane::take(const SampleStore& store, int tile_row) {
+void Lane::take(const LaneStores& stores, int tile_row) {
   const auto width = std::size_t(film_.width());
   const std::size_t begin = std::size_t(tile_row) * SampleStore::tile_size * width;
   const std::size_t end = std::min(begin + SampleStore::tile_size * width, film_.size());
-  if (looks_up_) {
-    rows_[std::size_t(tile_row)] = count(store, begin, end);
-    look_up(store, tile_row);
-  } else {
-    accumulate(store, begin, end);
-    rows_[std::size_t(tile_row)] = count(store, begin, end);
+  rows_[std::size_t(tile_row)] = count(stores, begin, end);
+  take_row(film_, {stores.shown, taken_, plan_.wanted}, tile_row, looks_up_shown_);
+  if (pilot_) {
+    take_row(*pilot_, {*stores.pilot, taken_, plan_.wanted}, tile_row, looks_up_pilot_);
   }
 }
 
@@ -56,16 +85,26 @@ void Lane::end_frame(double take_seconds) {
   const Estimator& row = estimator(policy_.estimator);
   if (row.estimate) {
     error_.resize(std::size_t(row.channels) * film_.size());
-    row.estimate(film_, error_);
+    EstimatorInput input{deciding_film()};
+    if (reference_) {
+      input.reference = reference_->pixels();
+    }
+    row.estimate(input, error_);
   }
   FrameRecord record;
-  record.frame = frame() + 1;
-  record.samples = (history_.empty() ? 0 : history_.back().samples) + plan_.total;
+  if (!history_.records().empty()) {
+    record = history_.back();
+  }
+  ++record.frame;
+  record.samples += pilot_ ? 2 * plan_.total : plan_.total;
+  record.pilot_samples += pilot_ ? plan_.total : 0;
+  record.max_spp = 0;
+  record.seconds = 0.0;
   for (const RowTotal& total : rows_) {
     record.max_spp = std::max(record.max_spp, total.max_spp);
     record.seconds += total.seconds;
   }
-  history_.push_back(record);
+  history_.push(record);
   replan();
   own_seconds_ += take_seconds +
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -74,10 +113,10 @@ void Lane::end_frame(double take_seconds) {
 }
 
 /// Adds what is wanted of pixels [begin, end) to what is taken.
-Lane::RowTotal Lane::count(const SampleStore& store, std::size_t begin, std::size_t end) {
+Lane::RowTotal Lane::count(const LaneStores& stores, std::size_t begin, std::size_t end) {
   std::uint32_t* taken = taken_.data();
   const std::uint16_t* wanted = plan_.wanted.data();
-  const float* cost = store.seconds_per_sample().data();
+  const float* cost = stores.shown.seconds_per_sample().data();
   std::uint32_t most = 0;
   double seconds = 0.0;
 #pragma omp simd reduction(max : most) reduction(+ : seconds)
@@ -87,95 +126,24 @@ Lane::RowTotal Lane::count(const SampleStore& store, std::size_t begin, std::siz
     // Through int, for which there are vectors.
     seconds += double(std::int32_t(taken[i])) * double(cost[i]);
   }
+  if (pilot_) {
+    const float* pilot_cost = stores.pilot->seconds_per_sample().data();
+#pragma omp simd reduction(+ : seconds)
+    for (std::size_t i = begin; i < end; ++i) {
+      seconds += double(std::int32_t(taken[i])) * double(pilot_cost[i]);
+    }
+  }
   return {most, seconds};
 }
 
-/// Reads the means of all samples taken, one tile after the other as they lie in memory.
-void Lane::look_up(const SampleStore& store, int tile_row) {
-  // Asked for this many tiles ahead, means have come when they are wanted; else a replay does
-  // little but wait for memory.
-  constexpr int ahead = 4;
-  constexpr int side = SampleStore::tile_size;
-  const std::size_t width = std::size_t(film_.width());
-  const std::uint32_t* taken = taken_.data();
-  for (int column = -ahead; column < store.tile_columns(); ++column) {
-    if (column + ahead < store.tile_columns()) {
-      const SampleStore::TileMeans tile = store.tile_means(column + ahead, tile_row);
-      for (int y = 0; y < tile.rows; ++y) {
-        const std::uint32_t* n = taken + std::size_t(tile.top + y) * width + std::size_t(tile.left);
-        for (int x = 0; x < tile.columns; ++x) {
-          __builtin_prefetch(tile.of(n[x]) + std::ptrdiff_t(y) * side + x);
-        }
-      }
-    }
-    if (column < 0) {
-      continue;
-    }
-    const SampleStore::TileMeans tile = store.tile_means(column, tile_row);
-    if (tile.rejected) {
-      look_up_with_rejected(store, tile);
-      continue;
-    }
-    for (int y = 0; y < tile.rows; ++y) {
-      const std::size_t first = std::size_t(tile.top + y) * width + std::size_t(tile.left);
-      for (int x = 0; x < tile.columns; ++x) {
-        const std::size_t pixel = first + std::size_t(x);
-        film_.put(pixel, taken[pixel], tile.of(taken[pixel])[y * side + x]);
-      }
-    }
-  }
+void Lane::catch_up_shown(const SampleStore& store) {
+  catch_up(film_, store, taken_);
 }
 
-/// The same where some sample of a tile was rejected: the newly taken ones must be looked at.
-void Lane::look_up_with_rejected(const SampleStore& store, const SampleStore::TileMeans& tile) {
-  std::vector<glm::vec3> samples;
-  for (int y = 0; y < tile.rows; ++y) {
-    const std::size_t first =
-        std::size_t(tile.top + y) * std::size_t(film_.width()) + std::size_t(tile.left);
-    for (int x = 0; x < tile.columns; ++x) {
-      const std::size_t pixel = first + std::size_t(x);
-      samples.resize(plan_.wanted[pixel]);
-      store.read(pixel, taken_[pixel] - plan_.wanted[pixel], samples);
-      film_.reject(pixel, samples);
-      film_.put(pixel, taken_[pixel] - film_.rejected()[pixel],
-                tile.of(taken_[pixel])[y * SampleStore::tile_size + x]);
-    }
+void Lane::catch_up_pilot(const SampleStore& store) {
+  if (pilot_) {
+    catch_up(*pilot_, store, taken_);
   }
-}
-
-/// Adds the samples of pixels [begin, end), whole rows of tiles, to what is there.
-void Lane::accumulate(const SampleStore& store, std::size_t begin, std::size_t end) {
-  // As above.
-  constexpr std::size_t ahead = 32;
-  const std::span<const std::uint32_t> pixels = store.pixels();
-  std::vector<glm::vec3> samples;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (i + ahead < end) {
-      const std::uint32_t later = pixels[i + ahead];
-      store.prefetch(later, taken_[later], plan_.wanted[later]);
-    }
-    const std::uint32_t pixel = pixels[i];
-    if (plan_.wanted[pixel] > 0) {
-      samples.resize(plan_.wanted[pixel]);
-      store.read(pixel, taken_[pixel], samples);
-      film_.add(pixel, samples);
-    }
-  }
-}
-
-void Lane::catch_up(const SampleStore& store) {
-  if (film_.has_sums()) {
-    return;
-  }
-  film_.keep_sums();
-  parallel_for(film_.size(), grain_pixels, [&](std::size_t begin, std::size_t end) {
-    std::vector<glm::vec3> samples;
-    for (std::size_t pixel = begin; pixel < end; ++pixel) {
-      samples.resize(taken_[pixel]);
-      store.read(pixel, 0, samples);
-      film_.restore_sum(pixel, samples);
-    }
-  });
 }
 
 void Lane::replan() {

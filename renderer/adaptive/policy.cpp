@@ -29,10 +29,15 @@ std::uint32_t sum_of(const std::uint8_t* values, std::size_t count) {
 class Marks {
  public:
   Marks(const SamplingPolicy& policy, const PlanInput& input)
-      : policy_(policy), input_(input), width_(std::size_t(input.width)), marks_(4 * width_ + 2) {}
+      : policy_(policy),
+        input_(input),
+        minimum_(minimum_samples(policy)),
+        width_(std::size_t(input.width)),
+        marks_(4 * width_ + 2) {}
 
-  /// Marks the pixels of a row with an error above its threshold in any channel; none of a row
-  /// outside the picture. The two rows marked before are still there.
+  /// Marks the pixels of a row with an error above its threshold in any channel, or with too few
+  /// samples to be done; none of a row outside the picture. The two rows marked before are still
+  /// there.
   void mark(int y) {
     std::uint8_t* row = marks(y);
     std::fill_n(row, width_, std::uint8_t(0));
@@ -46,6 +51,13 @@ class Marks {
 #pragma omp simd
       for (std::size_t x = 0; x < width_; ++x) {
         row[x] = std::uint8_t(row[x] | std::uint8_t(error[x] > threshold));
+      }
+    }
+    if (minimum_ > 0) {
+      const std::uint32_t* taken = input_.taken.data() + std::size_t(y) * width_;
+#pragma omp simd
+      for (std::size_t x = 0; x < width_; ++x) {
+        row[x] = std::uint8_t(row[x] | std::uint8_t(taken[x] < minimum_));
       }
     }
   }
@@ -80,6 +92,7 @@ class Marks {
 
   const SamplingPolicy& policy_;
   const PlanInput& input_;
+  std::uint32_t minimum_;
   std::size_t width_;
   std::vector<std::uint8_t> marks_;  // three rows and their sum
 };
@@ -153,14 +166,19 @@ void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
 /// What the policies below give a pixel at once: one pass of the sampler's stratification.
 constexpr std::uint16_t batch_samples = 8;
 
-/// A batch for every pixel above its threshold, none for the others.
+std::uint16_t chosen(std::uint16_t asked, std::uint16_t otherwise) {
+  return asked > 0 ? asked : otherwise;
+}
+
+/// A batch for every pixel that is not done, none for the others.
 void plan_marked(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   const auto width = std::size_t(input.width);
+  const std::uint16_t batch = chosen(policy.allocation.batch, batch_samples);
   plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
     const std::uint8_t* row = marks.row(int(y));
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
-      wanted[x] = std::uint16_t(row[x] * batch_samples);
+      wanted[x] = std::uint16_t(row[x] * batch);
     }
   });
 }
@@ -168,7 +186,7 @@ void plan_marked(const SamplingPolicy& policy, const PlanInput& input, Plan& pla
 /// Mitchell 1987: one sample everywhere, and after a single look eight more where it is needed.
 void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   if (input.frame == 0) {
-    plan_everywhere(plan, 1);
+    plan_everywhere(plan, chosen(policy.allocation.first, 1));
   } else if (input.frame == 1) {
     plan_marked(policy, input, plan);
   } else {
@@ -180,28 +198,30 @@ void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& 
 /// above the threshold, until it is so nowhere.
 void plan_batch(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   if (input.frame == 0) {
-    plan_everywhere(plan, batch_samples);
+    plan_everywhere(plan, chosen(policy.allocation.first, batch_samples));
   } else {
     plan_marked(policy, input, plan);
   }
 }
 
-/// As production renderers do it: no pixel is looked at before it has `minimum` samples, because
+/// As production renderers do it: no pixel is looked at before it has a minimum of samples, because
 /// one lucky agreement of few would stop it for good; then batches, also for the neighbours of a
-/// pixel above its threshold.
+/// pixel that is not done.
 void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   constexpr std::uint16_t minimum = 16;
   if (input.frame == 0) {
-    plan_everywhere(plan, minimum);
+    plan_everywhere(plan, chosen(policy.allocation.first, minimum));
     return;
   }
   const auto width = std::size_t(input.width);
+  const std::uint16_t own = chosen(estimator(policy.estimator).look_every, batch_samples);
+  const std::uint16_t batch = chosen(policy.allocation.batch, own);
   plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
     const std::uint8_t* columns = marks.columns(int(y));
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
       const int votes = columns[x] + columns[x + 1] + columns[x + 2];
-      wanted[x] = std::uint16_t(votes > 0 ? batch_samples : 0);
+      wanted[x] = std::uint16_t(votes > 0 ? batch : 0);
     }
   });
 }
@@ -217,12 +237,29 @@ constexpr std::array table{
                   plan_converge},
 };
 
+constexpr std::array use_table{
+    SampleUseRow{SampleUse::reuse, "reuse", "reuse",
+                 "the samples that decide are the picture: the 2021 report's way, biased (Kirk and "
+                 "Arvo 1991)"},
+    SampleUseRow{
+        SampleUse::unbiased, "unbiased", "unbiased",
+        "a pilot run with another seed decides, and is thrown away: unbiased, at twice the "
+        "samples (Kirk and Arvo 1991)"},
+};
+
 }  // namespace
+
+std::uint32_t minimum_samples(const SamplingPolicy& policy) {
+  const auto minimum = estimator(policy.estimator).minimum_samples;
+  return minimum ? minimum(policy.thresholds) : 0;
+}
 
 SamplingPolicy default_policy(EstimatorId estimator_id) {
   SamplingPolicy policy;
   policy.estimator = estimator_id;
-  policy.thresholds = estimator(estimator_id).default_thresholds;
+  const Estimator& row = estimator(estimator_id);
+  policy.thresholds = row.default_thresholds;
+  policy.allocation.kind = row.default_allocation;
   return policy;
 }
 
@@ -236,6 +273,18 @@ const AllocationRow& allocation(AllocationId key) {
 
 const AllocationRow& find_allocation(std::string_view id) {
   return find_row(allocations(), id, "policy");
+}
+
+std::span<const SampleUseRow> sample_uses() {
+  return use_table;
+}
+
+const SampleUseRow& sample_use(SampleUse key) {
+  return row_of(sample_uses(), key);
+}
+
+const SampleUseRow& find_sample_use(std::string_view id) {
+  return find_row(sample_uses(), id, "mode");
 }
 
 void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {

@@ -14,11 +14,26 @@ enum class AllocationId { vote, two_level, batch, converge };
 /// How errors become sample counts; which fields matter is the allocation's affair.
 struct Allocation {
   AllocationId kind = AllocationId::vote;
+  /// All but vote: samples that every pixel gets at first, and that a pixel gets at once later on;
+  /// 0: what the allocation's authors gave, or what the estimator asks for.
+  std::uint16_t first = 0;
+  std::uint16_t batch = 0;
   float multiplier = 0.5f;  ///< vote: extra samples a vote
   /// vote: round multiplier · votes up or down at random, so that its mean is kept, rather than
   /// down.
   bool stochastic_rounding = false;
   bool operator==(const Allocation&) const = default;
+};
+
+/// What the samples that decide are used for beside.
+enum class SampleUse {
+  /// They are the picture. Cheap, and biased: Kirk and Arvo, "Unbiased Sampling Techniques for
+  /// Image
+  /// Synthesis", SIGGRAPH 1991.
+  reuse,
+  /// Nothing: a pilot run with random numbers of its own decides, and the picture takes as many
+  /// samples of others. Unbiased at twice the samples.
+  unbiased,
 };
 
 /// What decides where a lane's samples go. A change replays the lane from its first frame.
@@ -27,10 +42,11 @@ struct SamplingPolicy {
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
   Allocation allocation;
   std::uint32_t max_spp = 1u << 16;
+  SampleUse use = SampleUse::reuse;
   bool operator==(const SamplingPolicy&) const = default;
 };
 
-/// The policy with an estimator's default thresholds.
+/// The policy with an estimator's default thresholds and allocation.
 SamplingPolicy default_policy(EstimatorId estimator);
 
 /// What a policy sees at the end of a frame.
@@ -45,9 +61,14 @@ struct PlanInput {
 /// Samples that each pixel gets in the next frame, and how it came to that.
 struct Plan {
   std::vector<std::uint16_t> wanted;
-  std::uint64_t total = 0;    ///< sum of `wanted`
-  std::uint64_t refined = 0;  ///< pixels whose own error is above a threshold
+  std::uint64_t total = 0;  ///< sum of `wanted`
+  /// Pixels that are not done by themselves: their own error is above a threshold, or they have
+  /// fewer samples than their estimator asks for.
+  std::uint64_t refined = 0;
 };
+
+/// Samples below which no pixel is done, whatever its error: as the estimator has it.
+std::uint32_t minimum_samples(const SamplingPolicy& policy);
 
 /// One row of the table of allocations.
 struct AllocationRow {
@@ -62,6 +83,19 @@ std::span<const AllocationRow> allocations();
 const AllocationRow& allocation(AllocationId key);
 /// Throws std::invalid_argument that lists the legal ids.
 const AllocationRow& find_allocation(std::string_view id);
+
+/// One row of the table of what the samples that decide are used for.
+struct SampleUseRow {
+  SampleUse key;
+  std::string_view id;
+  std::string_view label;
+  std::string_view source;
+};
+
+std::span<const SampleUseRow> sample_uses();
+const SampleUseRow& sample_use(SampleUse key);
+/// Throws std::invalid_argument that lists the legal ids.
+const SampleUseRow& find_sample_use(std::string_view id);
 
 /// Plans the next frame, from nothing but the arguments; `plan` is overwritten. An estimator
 /// without an error gives every pixel one sample, whatever the allocation.

@@ -14,8 +14,8 @@ namespace quartet {
 
 /// Everything that a window asks of the renderer. The newest request wins; what it changes decides
 /// what is redone. Scene, settings, memory or threads: a new store. A lane's policy: that lane
-/// replays from frame 1. Variance: all lanes replay. A lower frame: all lanes replay up to it. A
-/// higher one: they go on.
+/// replays from frame 1. Reference: the lanes that look at it replay. Variance: all lanes replay. A
+/// lower frame: all lanes replay up to it. A higher one: they go on.
 struct LabRequest {
   static constexpr std::uint32_t no_end = UINT32_MAX;
 
@@ -26,6 +26,8 @@ struct LabRequest {
   bool variance = false;                      ///< snapshots carry the variance of the mean
   std::size_t memory = std::size_t(2) << 30;  ///< of the sample store, bytes
   int threads = 0;                            ///< 0: one a processor
+  /// The truth, for estimators that need it; as large as the picture.
+  std::shared_ptr<const RadianceImage> reference;
 };
 
 /// What the renderer is doing.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/adaptive/divergence.h"
+
 namespace quartet {
 
 /// Error of one window of RGB values, straight from the definitions: what the criteria mean. The
@@ -35,14 +37,6 @@ T contrast(std::span<const T> channel) {
   const auto [low, high] = std::minmax_element(channel.begin(), channel.end());
   return *high > T(0) ? (*high - *low) / (*high + *low) : T(0);
 }
-
-/// Rigau, Feixas and Sbert, "Refinement Criteria Based on f-Divergences", EGSR 2003: with
-/// p_i = L_i / ΣL and q_i = 1/n, the error is (1/n) · L̄ · √D. With x_i = L_i / L̄ = n p_i:
-///   Kullback-Leibler  D = Σ p_i ln(p_i/q_i)   = (1/n) Σ x_i ln x_i
-///   chi-square        D = Σ (p_i − q_i)²/q_i  = (1/n) Σ (x_i − 1)²
-///   Hellinger         D = ½ Σ (√p_i − √q_i)²  = (1/2n) Σ (√x_i − 1)²
-/// A window without light has error 0.
-enum class Divergence { kl, chi2, hellinger };
 
 /// One window value's part of n · D; `x` is L_i / L̄. The part of kl is x ln x − x + 1: the extra
 /// terms cancel over a window and keep each part at zero or above.

@@ -264,7 +264,8 @@ void divergence_plane(const Film& film, std::span<float> error) {
 
 }  // namespace
 
-void estimate_contrast(const Film& film, std::span<float> error) {
+void estimate_contrast(const EstimatorInput& input, std::span<float> error) {
+  const Film& film = input.film;
   assert(error.size() == 3 * film.size());
   parallel_for(std::size_t(film.height()), grain_rows, [&](std::size_t begin, std::size_t end) {
     for (int c = 0; c < 3; ++c) {
@@ -274,16 +275,16 @@ void estimate_contrast(const Film& film, std::span<float> error) {
   });
 }
 
-void estimate_kl(const Film& film, std::span<float> error) {
-  divergence_plane<KullbackLeibler>(film, error);
+void estimate_kl(const EstimatorInput& input, std::span<float> error) {
+  divergence_plane<KullbackLeibler>(input.film, error);
 }
 
-void estimate_chi2(const Film& film, std::span<float> error) {
-  divergence_plane<Chi2>(film, error);
+void estimate_chi2(const EstimatorInput& input, std::span<float> error) {
+  divergence_plane<Chi2>(input.film, error);
 }
 
-void estimate_hellinger(const Film& film, std::span<float> error) {
-  divergence_plane<Hellinger>(film, error);
+void estimate_hellinger(const EstimatorInput& input, std::span<float> error) {
+  divergence_plane<Hellinger>(input.film, error);
 }
 
 }  // namespace quartet

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "renderer/adaptive/film.h"
+#include "renderer/adaptive/estimator.h"
 
 namespace quartet {
 
@@ -11,10 +11,10 @@ namespace quartet {
 /// their digits for nearly equal values and are exactly 0 for equal ones.
 
 /// `error` is three planes: R, G, B.
-void estimate_contrast(const Film& film, std::span<float> error);
+void estimate_contrast(const EstimatorInput& input, std::span<float> error);
 /// `error` is one plane each.
-void estimate_kl(const Film& film, std::span<float> error);
-void estimate_chi2(const Film& film, std::span<float> error);
-void estimate_hellinger(const Film& film, std::span<float> error);
+void estimate_kl(const EstimatorInput& input, std::span<float> error);
+void estimate_chi2(const EstimatorInput& input, std::span<float> error);
+void estimate_hellinger(const EstimatorInput& input, std::span<float> error);
 
 }  // namespace quartet

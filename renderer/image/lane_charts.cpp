@@ -93,6 +93,24 @@ Line outline(const ErrorHistogram& histogram, const Axis& x, std::size_t channel
   return line;
 }
 
+/// What the axis cannot show of the errors; empty if there is nothing to say.
+std::string error_note(const LaneSnapshot& lane, std::size_t pixels) {
+  std::uint32_t zero = UINT32_MAX;
+  std::uint32_t infinite = 0;
+  for (const ErrorHistogram& histogram : lane.error_histograms) {
+    zero = std::min(zero, histogram.zero);
+    infinite = std::max(infinite, histogram.infinite);
+  }
+  if (infinite > 0) {
+    return fmt::format("{:.0f} % too few samples", std::ceil(percent(infinite, pixels)));
+  }
+  const std::uint32_t minimum = minimum_samples(lane.policy);
+  if (minimum > 0 && std::ranges::min(lane.taken) < minimum) {
+    return fmt::format("none done below {} spp", minimum);
+  }
+  return percent(zero, pixels) >= 1.0 ? fmt::format("{:.0f} % are 0", percent(zero, pixels)) : "";
+}
+
 }  // namespace
 
 Chart sample_chart(const Snapshot& snapshot, std::size_t lane, const ColorScale& scale) {
@@ -174,15 +192,8 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
   chart.y = linear_axis(0.0, 1.15 * highest, "% of pixels", 2);
   chart.texts.push_back(top_right(
       fmt::format("{:.0f} % of pixels will be refined", percent(shown.plan.refined, pixels))));
-  std::uint32_t zero = UINT32_MAX;
-  for (const ErrorHistogram& histogram : shown.error_histograms) {
-    zero = std::min(zero, histogram.zero);
-  }
-  if (percent(zero, pixels) >= 1.0) {
-    chart.texts.push_back({{0.015, 0.96},
-                           Align::left,
-                           fmt::format("{:.0f} % are 0", percent(zero, pixels)),
-                           text_color});
+  if (const std::string note = error_note(shown, pixels); !note.empty()) {
+    chart.texts.push_back({{0.015, 0.96}, Align::left, note, text_color});
   }
   return chart;
 }

@@ -111,13 +111,19 @@ View stop_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) 
   const std::size_t channels = shown.error.size() / pixels;
   enum State : std::size_t { active, satisfied, at_maximum };
   View view;
-  view.legend = {{{232, 119, 46}, channels > 0 ? "error above its threshold" : "active"},
-                 {{46, 88, 130}, "satisfied"},
-                 {kCapColor, fmt::format("at the maximum of {} spp", shown.policy.max_spp)}};
+  const std::uint32_t minimum = channels > 0 ? minimum_samples(shown.policy) : 0;
+  view.legend = {
+      {{232, 119, 46},
+       channels == 0 ? "active"
+       : minimum == 0
+           ? "error above its threshold"
+           : fmt::format("error above its threshold, or fewer than {} samples", minimum)},
+      {{46, 88, 130}, "satisfied"},
+      {kCapColor, fmt::format("at the maximum of {} spp", shown.policy.max_spp)}};
   view.image = DisplayImage(snapshot.width, snapshot.height);
   for (std::size_t i = 0; i < pixels; ++i) {
     // Compared as the policy does: the quotient can round to the threshold.
-    State state = channels == 0 ? active : satisfied;
+    State state = channels == 0 || shown.taken[i] < minimum ? active : satisfied;
     for (std::size_t c = 0; c < channels; ++c) {
       state = shown.error[c * pixels + i] > shown.policy.thresholds[c] ? active : state;
     }

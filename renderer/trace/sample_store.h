@@ -34,6 +34,10 @@ class SampleStore {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  /// Another budget, which is looked at when something is to be forgotten.
+  void set_memory_budget(std::size_t bytes) { memory_budget_ = bytes; }
+  bool is_over_budget() const { return bytes() > memory_budget_; }
+
   /// Whether samples taken[p] … taken[p] + wanted[p] − 1 of each pixel p are available.
   bool holds(std::span<const std::uint32_t> taken, std::span<const std::uint16_t> wanted) const;
 

@@ -90,5 +90,60 @@ TEST(Film, RightAtTenMillionSamplesAPixel) {
   EXPECT_FLOAT_EQ(film.mean(2)[0], 1e-7f);
 }
 
+TEST(Film, StatisticsRightAtTenMillionSamplesAPixel) {
+  // One in eight is lit, over and over: the mean luminance is 1/8, and the divergences are those of
+  // eight samples of which one is lit.
+  Film film(1, 1,
+            {.variance = true,
+             .chi2 = true,
+             .kl = true,
+             .hellinger = true,
+             .half = SampleHalf::alternate});
+  std::vector<glm::vec3> samples(1000, glm::vec3(0.0f));
+  for (std::size_t i = 0; i < samples.size(); i += 8) {
+    samples[i] = glm::vec3(1.0f);
+  }
+  for (int i = 0; i < 10'000; ++i) {
+    film.add(0, samples);
+  }
+  const double n = 1e7;
+  const double mean = film.mean_luminance(0);
+  EXPECT_NEAR(mean, 0.125, 1e-12);
+  EXPECT_NEAR(film.spread(Divergence::chi2, 0) / n, 7.0 / 64.0, 1e-12);
+  EXPECT_NEAR(film.spread(Divergence::kl, 0) / (n * mean), std::log(8.0), 1e-11);
+  EXPECT_NEAR(film.spread(Divergence::hellinger, 0) / (n * std::sqrt(mean)), 1.0 - std::sqrt(0.125),
+              1e-11);
+  EXPECT_NEAR(film.variance_of_mean(0).y * (n - 1.0), 7.0 / 64.0, 1e-12);
+  EXPECT_EQ(film.half(0).count, 5'000'000u);
+  EXPECT_EQ(film.half(0).mean(), glm::vec3(0.25f)) << "all that are lit have even indices";
+}
+
+TEST(Film, IndicesOfHalvesCountRejectedSamples) {
+  const std::vector<glm::vec3> samples{glm::vec3(1.0f), glm::vec3(nan),   glm::vec3(2.0f),
+                                       glm::vec3(4.0f), glm::vec3(-1.0f), glm::vec3(8.0f)};
+  Film film(1, 1, {.half = SampleHalf::alternate});
+  // In pieces, as frames do.
+  film.add(0, std::span(samples).first(3));
+  film.add(0, std::span(samples).subspan(3));
+  EXPECT_EQ(film.half(0).count, 2u);
+  EXPECT_EQ(film.half(0).mean(), glm::vec3(1.5f));
+  EXPECT_EQ(film.counts()[0], 4u);
+}
+
+TEST(Film, StatisticsCostNothingWhereUnused) {
+  const std::vector<glm::vec3> samples(4, glm::vec3(1.0f));
+  Film film(10, 10);
+  film.add(0, samples);
+  const std::size_t plain = film.bytes();
+  EXPECT_EQ(plain, 100 * (3 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(glm::dvec3)));
+  film.restart({.chi2 = true, .half = SampleHalf::class_a});
+  film.add(0, samples);
+  EXPECT_EQ(film.bytes(), plain + 100 * (2 * sizeof(double) + sizeof(RunningMean)));
+  EXPECT_EQ(film.mean_luminance(0), 1.0);
+  film.restart({});
+  film.add(0, samples);
+  EXPECT_EQ(film.bytes(), plain);
+}
+
 }  // namespace
 }  // namespace quartet

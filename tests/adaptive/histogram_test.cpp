@@ -69,7 +69,8 @@ TEST(Histogram, OfErrorsLosesNoPixel) {
                  histogram);
   EXPECT_EQ(histogram.zero, 2u);
   EXPECT_EQ(histogram.pixels.front(), 2u);
-  EXPECT_EQ(histogram.pixels.back(), 2u);
+  EXPECT_EQ(histogram.pixels.back(), 1u);
+  EXPECT_EQ(histogram.infinite, 1u);
   const int middle = -ErrorHistogram::first_exponent * ErrorHistogram::bins_per_decade;
   EXPECT_EQ(histogram.pixels[std::size_t(middle)], 1u);
   EXPECT_DOUBLE_EQ(ErrorHistogram::begin_of(middle), 1.0);

@@ -14,10 +14,26 @@ constexpr int width = 48;
 constexpr int height = 27;
 constexpr std::size_t pixels = std::size_t(width) * height;
 
+/// Every estimator with the policy that comes with it.
 std::vector<SamplingPolicy> all_policies() {
   std::vector<SamplingPolicy> policies;
   for (const Estimator& row : estimators()) {
     policies.push_back(default_policy(row.key));
+  }
+  return policies;
+}
+
+/// Every estimator under every allocation in every mode.
+std::vector<SamplingPolicy> all_combinations() {
+  std::vector<SamplingPolicy> policies;
+  for (SamplingPolicy policy : all_policies()) {
+    for (const AllocationRow& allocation : allocations()) {
+      for (const SampleUseRow& use : sample_uses()) {
+        policy.allocation.kind = allocation.key;
+        policy.use = use.key;
+        policies.push_back(policy);
+      }
+    }
   }
   return policies;
 }
@@ -32,8 +48,12 @@ SampleSource cornell_checker(std::uint64_t seed = 0) {
   return sample_source(scene, settings);
 }
 
-Lab make_lab(std::span<const SamplingPolicy> policies, LabOptions options = {}) {
-  return Lab(cornell_checker(), width, height, policies, options);
+/// With all that any estimator and any mode asks for.
+Lab make_lab(std::span<const SamplingPolicy> policies, LabOptions options = {},
+             SampleSource source = cornell_checker()) {
+  options.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
+  options.pilot_source = cornell_checker(1);
+  return Lab(std::move(source), width, height, policies, options);
 }
 
 LabOptions options_with_threads(int threads) {
@@ -108,7 +128,12 @@ TEST(Lab, ALaneIsTheSameAloneAndInCompany) {
 }
 
 TEST(Lab, AReplayIsTheSameAsAFreshRun) {
-  auto policies = all_policies();
+  // Not all: a greedier lane would have traced what a lower threshold wants.
+  std::vector<SamplingPolicy> policies;
+  for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl, EstimatorId::rigau_kl}) {
+    policies.push_back(default_policy(id));
+  }
+  policies[2].allocation.kind = AllocationId::vote;
   Lab lab = make_lab(policies);
   run(lab, 6);
   const std::uint64_t traced = lab.store().traced();
@@ -137,7 +162,7 @@ TEST(Lab, AReplayIsTheSameAsAFreshRun) {
 }
 
 TEST(LabThreads, OneTwoAndEightThreadsGiveTheSame) {
-  const auto policies = all_policies();
+  const auto policies = all_combinations();
   Lab one = make_lab(policies, options_with_threads(1));
   run(one, 6);
   for (const int threads : {2, 8}) {
@@ -150,7 +175,8 @@ TEST(LabThreads, OneTwoAndEightThreadsGiveTheSame) {
 }
 
 TEST(Lab, AShortMemoryChangesNothingButWork) {
-  const auto policies = all_policies();
+  auto policies = all_policies();
+  policies.back().use = policies.front().use = SampleUse::unbiased;
   Lab ample = make_lab(policies);
   run(ample, 12);
   Lab tight = make_lab(policies, options_with_memory(1));
@@ -187,13 +213,14 @@ TEST(Lab, MeansLookedUpAreThoseAddedUp) {
   LabOptions adds;
   adds.statistics.variance = true;
   for (const bool bad : {false, true}) {
-    Lab looking_up(noise(bad), width, height, policies);
-    Lab adding(noise(bad), width, height, policies, adds);
+    Lab looking_up = make_lab(policies, {}, noise(bad));
+    Lab adding = make_lab(policies, adds, noise(bad));
     run(looking_up, 9);
     run(adding, 9);
     EXPECT_TRUE(looking_up.store().has_means());
     for (std::size_t i = 0; i < policies.size(); ++i) {
-      EXPECT_FALSE(looking_up.lanes()[i].film().has_sums());
+      EXPECT_EQ(looking_up.lanes()[i].film().has_sums(),
+                estimator(policies[i].estimator).needs.any());
       EXPECT_TRUE(adding.lanes()[i].film().has_sums());
       expect_same_state(looking_up.lanes()[i], adding.lanes()[i]);
       EXPECT_TRUE(std::ranges::equal(looking_up.lanes()[i].film().rejected(),
@@ -206,11 +233,11 @@ TEST(Lab, MeansLookedUpAreThoseAddedUp) {
 TEST(Lab, ChangesFromLookingUpToAddingInTheMiddle) {
   const auto policies = all_policies();
   for (const bool bad : {false, true}) {
-    Lab ample(noise(bad), width, height, policies);
+    Lab ample = make_lab(policies, {}, noise(bad));
     run(ample, 5);
     LabOptions options;
     options.memory = ample.store().bytes();
-    Lab tight(noise(bad), width, height, policies, options);
+    Lab tight = make_lab(policies, options, noise(bad));
     run(tight, 5);
     EXPECT_TRUE(tight.store().has_means());
     run(tight, 12);
@@ -280,6 +307,53 @@ TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
     charged += double(most) * double(store.seconds_per_sample()[i]);
   }
   EXPECT_NEAR(charged / store.seconds(), 1.0, 1e-3);
+}
+
+TEST(Lab, TheOracleNeedsAReferenceOfThePicturesSize) {
+  const SamplingPolicy oracle = default_policy(EstimatorId::oracle);
+  EXPECT_THROW(Lab(cornell_checker(), width, height, std::span(&oracle, 1)), std::invalid_argument);
+  LabOptions options;
+  options.reference = std::make_shared<const RadianceImage>(width, height + 1);
+  EXPECT_THROW(Lab(cornell_checker(), width, height, std::span(&oracle, 1), options),
+               std::invalid_argument);
+  const SamplingPolicy plain = default_policy(EstimatorId::kl);
+  Lab lab(cornell_checker(), width, height, std::span(&plain, 1));
+  EXPECT_THROW(lab.set_policy(0, oracle), std::invalid_argument);
+  EXPECT_EQ(lab.lanes()[0].policy(), plain);
+}
+
+TEST(Lab, TheOracleKnowsWhereThePictureIsWrong) {
+  // A reference that is the picture itself, but for one pixel.
+  const SamplingPolicy policies[] = {default_policy(EstimatorId::uniform),
+                                     default_policy(EstimatorId::oracle)};
+  Lab uniform = make_lab(std::span(policies).first(1));
+  run(uniform, 8);
+  RadianceImage truth = uniform.lanes()[0].film().image();
+  truth.at(5, 7) += glm::vec3(1.0f);
+  LabOptions options;
+  options.reference = std::make_shared<const RadianceImage>(truth);
+  Lab lab(cornell_checker(), width, height, std::span(policies).subspan(1), options);
+  run(lab, 1);
+  const Lane& lane = lab.lanes()[0];
+  ASSERT_EQ(lane.taken()[0], 8u);
+  EXPECT_EQ(lane.plan().refined, 1u);
+  EXPECT_EQ(lane.plan().wanted[std::size_t(7) * width + 5], 8u);
+  EXPECT_NEAR(lane.error()[std::size_t(7) * width + 5], 1.0, 1e-5);
+}
+
+TEST(Lab, AnUnbiasedLaneIsPlannedByItsPilotAlone) {
+  // The counts are those of a lane that reuses the pilot's samples; the picture is another.
+  SamplingPolicy policy = default_policy(EstimatorId::kl);
+  Lab pilot(cornell_checker(1), width, height, std::span(&policy, 1));
+  run(pilot, 6);
+  policy.use = SampleUse::unbiased;
+  Lab lab = make_lab(std::span(&policy, 1));
+  run(lab, 6);
+  const Lane& lane = lab.lanes()[0];
+  EXPECT_TRUE(std::ranges::equal(lane.taken(), pilot.lanes()[0].taken()));
+  EXPECT_TRUE(std::ranges::equal(lane.error(), pilot.lanes()[0].error()));
+  EXPECT_EQ(lane.deciding_film().image(), pilot.lanes()[0].film().image());
+  EXPECT_NE(lane.film().image(), pilot.lanes()[0].film().image());
 }
 
 TEST(Lab, AnotherSeedGivesOtherSamples) {

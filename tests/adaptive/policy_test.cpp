@@ -214,7 +214,9 @@ TEST(Tables, IdsAreUniqueAndFound) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "unknown estimator 'kll'; there are: contrast, kl, chi2, hellinger, uniform");
+                 "unknown estimator 'kll'; there are: contrast, kl, chi2, hellinger, confidence, "
+                 "variance, half-buffer, cycles, rigau-kl, rigau-chi2, rigau-hellinger, oracle, "
+                 "uniform");
   }
 }
 

@@ -41,6 +41,11 @@ inline LabRequest four_lanes() {
   return request;
 }
 
+/// A truth for estimators that need one.
+inline std::shared_ptr<const RadianceImage> grey_reference(float radiance) {
+  return std::make_shared<const RadianceImage>(width, height, glm::vec3(radiance));
+}
+
 /// What answers the request with this number, at this frame; null if nothing does.
 inline std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
                                                 std::uint32_t frame) {
@@ -64,6 +69,8 @@ inline Snapshot headless(const LabRequest& request) {
   LabOptions options;
   options.threads = 1;
   options.statistics.variance = request.variance;
+  options.reference = request.reference;
+  options.pilot_source = pilot_source(request.scene, request.settings);
   Lab lab(sample_source(request.scene, request.settings), request.settings.width,
           request.settings.height, request.policies, options);
   while (lab.frame() < request.frame) {

@@ -71,9 +71,10 @@ TEST(SessionThreads, AFastDragOfAThresholdShowsPicturesAndEndsRight) {
 TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
   Session session;
   LabRequest request = four_lanes();
+  request.reference = grey_reference(0.3f);
   drag(session, request, 600, [](LabRequest& changed, int step) {
     const auto lane = std::size_t(step) % changed.policies.size();
-    switch (step % 7) {
+    switch (step % 9) {
       case 0:
         changed.frame = 1 + std::uint32_t(step) % 11;
         break;
@@ -81,7 +82,8 @@ TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
         changed.policies[lane].max_spp = 3 + std::uint32_t(step) % 17;
         break;
       case 2:
-        changed.policies[lane] = default_policy(estimators()[std::size_t(step) % 5].key);
+        changed.policies[lane] =
+            default_policy(estimators()[std::size_t(step) % estimators().size()].key);
         break;
       case 3:
         if (step % 4 == 0) {
@@ -93,6 +95,12 @@ TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
         break;
       case 5:
         changed.policies.resize(1 + std::size_t(step) % 5, default_policy(EstimatorId::chi2));
+        break;
+      case 6:
+        changed.policies[lane].use = sample_uses()[std::size_t(step) % sample_uses().size()].key;
+        break;
+      case 7:
+        changed.reference = grey_reference(0.1f * float(step % 4));
         break;
       default:
         changed.policies[lane].thresholds[0] *= 0.9f;

@@ -30,6 +30,24 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
     expect_as_headless(session, request);
   }
   {
+    SCOPED_TRACE("a reference, and another");
+    request.policies[2] = default_policy(EstimatorId::oracle);
+    request.reference = grey_reference(0.3f);
+    expect_as_headless(session, request);
+    request.reference = grey_reference(0.5f);
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("a mode");
+    request.policies[1].use = SampleUse::unbiased;
+    expect_as_headless(session, request);
+    request.policies[1].use = SampleUse::reuse;
+    expect_as_headless(session, request);
+    request.policies[2] = default_policy(EstimatorId::uniform);
+    request.reference.reset();
+    expect_as_headless(session, request);
+  }
+  {
     SCOPED_TRACE("a lower frame");
     request.frame = 3;
     expect_as_headless(session, request);
@@ -69,6 +87,21 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
     request.frame = 0;
     expect_as_headless(session, request);
   }
+}
+
+TEST(SessionThreads, AnOracleWithoutAReferenceIsAnError) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.policies[1] = default_policy(EstimatorId::oracle);
+  session.submit(request);
+  const auto end = Clock::now() + patience;
+  while (session.status().error.empty() && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_NE(session.status().error.find("oracle"), std::string::npos) << session.status().error;
+  // And the session goes on.
+  request.reference = grey_reference(0.3f);
+  expect_as_headless(session, request);
 }
 
 std::uint64_t stored_samples(const Session& session) {

@@ -10,6 +10,9 @@
 namespace quartet {
 namespace {
 
+constexpr std::array window_estimators{EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2,
+                                       EstimatorId::hellinger};
+
 Film film_of(int width, int height, auto&& radiance) {
   Film film(width, height);
   for (std::size_t i = 0; i < film.size(); ++i) {
@@ -45,14 +48,14 @@ double tolerance(double expected, double mean, double n) {
 
 void expect_agreement(const Film& film) {
   std::vector<float> contrasts(3 * film.size());
-  estimate_contrast(film, contrasts);
+  estimate_contrast({film}, contrasts);
   std::array<std::vector<float>, 3> errors;
   for (auto& plane : errors) {
     plane.resize(film.size());
   }
-  estimate_kl(film, errors[0]);
-  estimate_chi2(film, errors[1]);
-  estimate_hellinger(film, errors[2]);
+  estimate_kl({film}, errors[0]);
+  estimate_chi2({film}, errors[1]);
+  estimate_hellinger({film}, errors[2]);
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) {
       const std::size_t i = pixel_at(film, x, y);
@@ -128,13 +131,12 @@ TEST(WindowKernels, ConstantWindowsHaveNoError) {
     const glm::vec3 value(std::pow(10.0f, exponent(random)), std::pow(10.0f, exponent(random)),
                           std::pow(10.0f, exponent(random)));
     const Film film = film_of(11, 4, [&](std::size_t) { return value; });
-    for (const Estimator& row : estimators()) {
-      if (row.estimate) {
-        std::vector<float> error(std::size_t(row.channels) * film.size(), 1.0f);
-        row.estimate(film, error);
-        for (const float e : error) {
-          ASSERT_EQ(e, 0.0f) << row.id << " of " << value.x << ", " << value.y << ", " << value.z;
-        }
+    for (const EstimatorId id : window_estimators) {
+      const Estimator& row = estimator(id);
+      std::vector<float> error(std::size_t(row.channels) * film.size(), 1.0f);
+      row.estimate({film}, error);
+      for (const float e : error) {
+        ASSERT_EQ(e, 0.0f) << row.id << " of " << value.x << ", " << value.y << ", " << value.z;
       }
     }
   }
@@ -149,13 +151,12 @@ TEST(WindowKernels, FiniteForEveryFiniteInput) {
       const auto value = [&] { return black(random) ? 0.0f : std::pow(10.0f, exponent(random)); };
       return glm::vec3(value(), value(), value());
     });
-    for (const Estimator& row : estimators()) {
-      if (row.estimate) {
-        std::vector<float> error(std::size_t(row.channels) * film.size(), -1.0f);
-        row.estimate(film, error);
-        for (const float e : error) {
-          ASSERT_TRUE(std::isfinite(e) && e >= 0.0f) << row.id << " gives " << e;
-        }
+    for (const EstimatorId id : window_estimators) {
+      const Estimator& row = estimator(id);
+      std::vector<float> error(std::size_t(row.channels) * film.size(), -1.0f);
+      row.estimate({film}, error);
+      for (const float e : error) {
+        ASSERT_TRUE(std::isfinite(e) && e >= 0.0f) << row.id << " gives " << e;
       }
     }
   }

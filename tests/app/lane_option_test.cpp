@@ -17,6 +17,9 @@ TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
     policy.allocation.multiplier = 0.1f;
     policy.allocation.stochastic_rounding = true;
     policy.max_spp = 77;
+    policy.use = SampleUse::unbiased;
+    policy.allocation.first = 4;
+    policy.allocation.batch = 12;
     SamplingPolicy read = policy_of_lane(lane_text(policy), {});
     for (int c = row.channels; c < 3; ++c) {
       read.thresholds[std::size_t(c)] = policy.thresholds[std::size_t(c)];
@@ -25,9 +28,18 @@ TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
   }
 }
 
+TEST(LaneOption, ALaneAsItComesIsOneWordOfItsThresholds) {
+  for (const Estimator& row : estimators()) {
+    const SamplingPolicy policy = default_policy(row.key);
+    EXPECT_EQ(policy_of_lane(std::string(row.id), {}), policy);
+    EXPECT_EQ(lane_text(policy).find("policy="), std::string::npos);
+  }
+}
+
 TEST(LaneOption, SaysWhatIsWrong) {
   for (const char* text : {"kl:", "kl:x", "kl:0", "kl:-1", "kl:nan", "kl:1,2", "contrast:1,2",
-                           "kl:multiplier=", "uniform:1", "kl:max-spp=many", "kl:speed=3"}) {
+                           "kl:multiplier=", "uniform:1", "kl:max-spp=many", "kl:speed=3",
+                           "kl:first=70000", "kl:batch=-1"}) {
     EXPECT_NE(error_of([&] { policy_of_lane(text, {}); }).find("--lane"), std::string::npos)
         << text;
   }

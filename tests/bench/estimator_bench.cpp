@@ -16,13 +16,17 @@ namespace {
 constexpr int width = 960;
 constexpr int height = 540;
 
-Film noisy_film() {
-  Film film(width, height);
+/// With what an estimator needs, of 16 samples a pixel; one where the means are all it needs.
+Film noisy_film(FilmStatistics statistics = {}) {
+  Film film(width, height, statistics);
   std::mt19937 random(1);
   std::exponential_distribution<float> radiance(1.0f);
+  std::vector<glm::vec3> samples(statistics.any() ? 16 : 1);
   for (std::size_t i = 0; i < film.size(); ++i) {
-    const glm::vec3 sample(radiance(random), radiance(random), radiance(random));
-    film.add(i, {&sample, 1});
+    for (glm::vec3& sample : samples) {
+      sample = {radiance(random), radiance(random), radiance(random)};
+    }
+    film.add(i, samples);
   }
   return film;
 }
@@ -34,11 +38,12 @@ void per_pixel(benchmark::State& state) {
 }
 
 void estimate(benchmark::State& state, const Estimator& row) {
-  const Film film = noisy_film();
+  const Film film = noisy_film(row.needs);
+  const RadianceImage reference(width, height, glm::vec3(1.0f));
   std::vector<float> error(std::size_t(row.channels) * film.size());
   tbb::task_arena(1).execute([&] {
     for (auto _ : state) {
-      row.estimate(film, error);
+      row.estimate({film, reference.pixels()}, error);
       benchmark::DoNotOptimize(error.data());
     }
   });
@@ -49,7 +54,7 @@ void plan(benchmark::State& state) {
   const Film film = noisy_film();
   const SamplingPolicy policy = default_policy(EstimatorId::kl);
   std::vector<float> error(film.size());
-  estimator(policy.estimator).estimate(film, error);
+  estimator(policy.estimator).estimate({film}, error);
   Plan next;
   tbb::task_arena(1).execute([&] {
     for (auto _ : state) {

@@ -1,0 +1,114 @@
+#include "renderer/adaptive/film_feed.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "renderer/parallel.h"
+
+namespace quartet {
+namespace {
+
+// Pixels handed to one thread at a time; a smaller piece costs more to hand out than it gains.
+constexpr std::size_t grain_pixels = 1 << 12;
+
+/// Looks up a tile of which some sample was rejected: the newly taken ones must be looked at.
+void look_up_with_rejected(Film& film, const FrameSamples& frame,
+                           const SampleStore::TileMeans& tile) {
+  std::vector<glm::vec3> samples;
+  for (int y = 0; y < tile.rows; ++y) {
+    const std::size_t first =
+        std::size_t(tile.top + y) * std::size_t(film.width()) + std::size_t(tile.left);
+    for (int x = 0; x < tile.columns; ++x) {
+      const std::size_t pixel = first + std::size_t(x);
+      const std::uint32_t taken = frame.taken[pixel];
+      samples.resize(frame.wanted[pixel]);
+      frame.store.read(pixel, taken - frame.wanted[pixel], samples);
+      film.reject(pixel, samples);
+      film.put(pixel, taken - film.rejected()[pixel],
+               tile.of(taken)[y * SampleStore::tile_size + x]);
+    }
+  }
+}
+
+}  // namespace
+
+bool looks_up(const Film& film, const SampleStore& store) {
+  return store.has_means() && !film.has_sums() && !film.statistics().any();
+}
+
+/// Reads the means of all samples taken, one tile after the other as they lie in memory.
+void look_up(Film& film, const FrameSamples& frame, int tile_row) {
+  // Asked for this many tiles ahead, means have come when they are wanted; else a replay does
+  // little but wait for memory.
+  constexpr int ahead = 4;
+  constexpr int side = SampleStore::tile_size;
+  const SampleStore& store = frame.store;
+  const std::size_t width = std::size_t(film.width());
+  const std::uint32_t* taken = frame.taken.data();
+  for (int column = -ahead; column < store.tile_columns(); ++column) {
+    if (column + ahead < store.tile_columns()) {
+      const SampleStore::TileMeans tile = store.tile_means(column + ahead, tile_row);
+      for (int y = 0; y < tile.rows; ++y) {
+        const std::uint32_t* n = taken + std::size_t(tile.top + y) * width + std::size_t(tile.left);
+        for (int x = 0; x < tile.columns; ++x) {
+          __builtin_prefetch(tile.of(n[x]) + std::ptrdiff_t(y) * side + x);
+        }
+      }
+    }
+    if (column < 0) {
+      continue;
+    }
+    const SampleStore::TileMeans tile = store.tile_means(column, tile_row);
+    if (tile.rejected) {
+      look_up_with_rejected(film, frame, tile);
+      continue;
+    }
+    for (int y = 0; y < tile.rows; ++y) {
+      const std::size_t first = std::size_t(tile.top + y) * width + std::size_t(tile.left);
+      for (int x = 0; x < tile.columns; ++x) {
+        const std::size_t pixel = first + std::size_t(x);
+        film.put(pixel, taken[pixel], tile.of(taken[pixel])[y * side + x]);
+      }
+    }
+  }
+}
+
+void accumulate(Film& film, const FrameSamples& frame, int tile_row) {
+  // As above.
+  constexpr std::size_t ahead = 32;
+  const std::size_t row = SampleStore::tile_size * std::size_t(film.width());
+  const std::size_t begin = std::size_t(tile_row) * row;
+  const std::size_t end = std::min(begin + row, film.size());
+  const std::span<const std::uint32_t> pixels = frame.store.pixels();
+  std::vector<glm::vec3> samples;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i + ahead < end) {
+      const std::uint32_t later = pixels[i + ahead];
+      const std::uint32_t wanted = frame.wanted[later];
+      frame.store.prefetch(later, frame.taken[later] - wanted, wanted);
+    }
+    const std::uint32_t pixel = pixels[i];
+    if (const std::uint32_t wanted = frame.wanted[pixel]; wanted > 0) {
+      samples.resize(wanted);
+      frame.store.read(pixel, frame.taken[pixel] - wanted, samples);
+      film.add(pixel, samples);
+    }
+  }
+}
+
+void catch_up(Film& film, const SampleStore& store, std::span<const std::uint32_t> taken) {
+  if (film.has_sums()) {
+    return;
+  }
+  film.keep_sums();
+  parallel_for(film.size(), grain_pixels, [&](std::size_t begin, std::size_t end) {
+    std::vector<glm::vec3> samples;
+    for (std::size_t pixel = begin; pixel < end; ++pixel) {
+      samples.resize(taken[pixel]);
+      store.read(pixel, 0, samples);
+      film.restore_sum(pixel, samples);
+    }
+  });
+}
+
+}  // namespace quartet

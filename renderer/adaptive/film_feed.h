@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "renderer/adaptive/film.h"
+#include "renderer/trace/sample_store.h"
+
+namespace quartet {
+
+/// How a frame's samples come out of a store into a film: where the store has means and the film
+/// wants nothing else, they are looked up, else samples are added, with the same result to the bit.
+
+/// The samples of a frame, which must be in the store.
+struct FrameSamples {
+  const SampleStore& store;
+  std::span<const std::uint32_t> taken;   ///< of every pixel, those of this frame included
+  std::span<const std::uint16_t> wanted;  ///< of these, what this frame has added
+};
+
+/// Whether a film's next frame is looked up. Once it has added, it goes on adding.
+bool looks_up(const Film& film, const SampleStore& store);
+
+// For one row of tiles; calls for different rows may come from different threads.
+
+void look_up(Film& film, const FrameSamples& samples, int tile_row);
+void accumulate(Film& film, const FrameSamples& samples, int tile_row);
+
+/// Sums up what was looked up, `taken` samples of every pixel, so that it can be added to. Runs on
+/// the threads of the current TBB arena.
+void catch_up(Film& film, const SampleStore& store, std::span<const std::uint32_t> taken);
+
+}  // namespace quartet

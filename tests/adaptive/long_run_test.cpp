@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "renderer/adaptive/lab.h"
+
+namespace quartet {
+namespace {
+
+/// Of this process, in bytes.
+std::size_t resident_memory() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t total = 0;
+  std::size_t resident = 0;
+  file >> total >> resident;
+  return resident * std::size_t(sysconf(_SC_PAGESIZE));
+}
+
+SampleSource noise(std::uint32_t seed) {
+  return [seed](int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      std::uint32_t bits =
+          (std::uint32_t(x + 4 * y) + seed) * 0x9e3779b9u + std::uint32_t(first + i);
+      bits = (bits ^ (bits >> 16)) * 0x21f0aaadu;
+      radiance[i] = glm::vec3(float(bits >> 8) * 0x1p-24f);
+    }
+  };
+}
+
+TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandFrames) {
+  constexpr std::size_t mib = std::size_t(1) << 20;
+  SamplingPolicy reused = default_policy(EstimatorId::uniform);
+  SamplingPolicy unbiased = default_policy(EstimatorId::kl);
+  unbiased.use = SampleUse::unbiased;
+  reused.max_spp = unbiased.max_spp = 1u << 31;
+  LabOptions options;
+  options.threads = 1;
+  options.memory = 4 * mib;
+  options.pilot_source = noise(1000);
+  const SamplingPolicy policies[] = {reused, unbiased};
+  Lab lab(noise(0), 4, 4, policies, options);
+  std::size_t settled = 0;
+  for (std::uint32_t frame = 1; frame <= 100'000; ++frame) {
+    ASSERT_TRUE(lab.run_frame());
+    ASSERT_LE(lab.stored_bytes(), options.memory) << frame;
+    if (frame == 20'000) {
+      settled = resident_memory();
+    }
+  }
+  // The stores take their memory in slabs of 2 MiB, and the allocator has its own ways.
+  EXPECT_LT(resident_memory(), settled + 4 * mib);
+  EXPECT_TRUE(lab.partial());
+  for (const Lane& lane : lab.lanes()) {
+    EXPECT_EQ(lane.frame(), 100'000u);
+    EXPECT_LE(lane.history().size(), FrameHistory::most_records);
+    for (const std::uint32_t taken : lane.taken()) {
+      EXPECT_GE(taken, 100'000u);
+    }
+    for (const float mean : lane.film().mean(1)) {
+      EXPECT_NEAR(mean, 0.5f, 0.01f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quartet
