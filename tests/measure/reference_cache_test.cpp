@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -29,12 +30,15 @@ TEST(ReferenceCache, EachThingThatSamplesDependOnButTheSeedHasAFileOfItsOwn) {
   EXPECT_TRUE(changed([](RenderSettings& s) { s.height += 1; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.max_depth = 3; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.integrator = IntegratorId::kajiya; }));
-  EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.origin.x += 1e-6f; }));
+  EXPECT_TRUE(changed(
+      [](RenderSettings& s) { s.camera.origin.x = std::nextafter(s.camera.origin.x, 1e9f); }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.right = -s.camera.right; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.up = -s.camera.up; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.forward = -s.camera.forward; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.fov += 0.1f; }));
-  EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.fov_axis = FovAxis::y; }));
+  EXPECT_TRUE(changed([](RenderSettings& s) {
+    s.camera.fov_axis = s.camera.fov_axis == FovAxis::x ? FovAxis::y : FovAxis::x;
+  }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.aperture_radius += 0.1f; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.focus_distance += 0.1f; }));
   Scene other = scene;
