@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "renderer/adaptive/policy.h"
+#include "renderer/image/exr.h"
+#include "tests/app/program.h"
+#include "tests/image/temp_folder.h"
+
+namespace quartet {
+namespace {
+
+class ModeOption : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  void make_reference() const {
+    const Result result =
+        run({"reference", "cornell-box", "--size", "20x15", "--spp", "64", "-o", path("ref.exr")});
+    ASSERT_EQ(result.code, 0) << result.error;
+  }
+
+  /// Each estimator in each mode, into a folder.
+  void figure_of_all(const std::string& out, const std::string& threads) const {
+    std::vector<std::string> words{
+        "figure",    "cornell-box", "--size",      "20x15",         "--frames", "4",
+        "--threads", threads,       "--reference", path("ref.exr"), "--out",    path(out)};
+    for (const Estimator& row : estimators()) {
+      for (const SampleUseRow& use : sample_uses()) {
+        words.emplace_back("--lane");
+        words.push_back(fmt::format("{}:mode={}", row.id, use.id));
+      }
+    }
+    const Result result = run(words);
+    ASSERT_EQ(result.code, 0) << result.error;
+  }
+
+  TempFolder folder_;
+};
+
+/// A CSV without its column of seconds, and without the metric made of it.
+std::vector<std::string> without_seconds(const std::string& csv) {
+  constexpr int seconds_column = 7;
+  std::vector<std::string> kept;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string rest;
+    int column = 0;
+    for (std::string word; std::getline(words, word, ','); ++column) {
+      if (column != seconds_column) {
+        rest += word;
+        rest += ',';
+      }
+    }
+    if (rest.find("efficiency") == std::string::npos) {
+      kept.push_back(rest);
+    }
+  }
+  return kept;
+}
+
+TEST_F(ModeOption, EachEstimatorInEachModeIsTheSameWithAnyNumberOfThreads) {
+  make_reference();
+  figure_of_all("1", "1");
+  const auto csv = without_seconds(bytes_of(path("1/panels.csv")));
+  ASSERT_GT(csv.size(), 2 * estimators().size());
+  EXPECT_EQ(csv.front().find("seconds"), std::string::npos);
+  const auto json = nlohmann::json::parse(bytes_of(path("1/panels.json")));
+  ASSERT_EQ(json.at("lanes").size(), 2 * estimators().size());
+  for (const std::string threads : {"2", "8"}) {
+    figure_of_all(threads, threads);
+    EXPECT_EQ(without_seconds(bytes_of(path(fmt::format("{}/panels.csv", threads)))), csv);
+    for (const Estimator& row : estimators()) {
+      for (const char* const suffix : {"", "-2"}) {
+        const std::string name = fmt::format("{}{}.exr", row.id, suffix);
+        const ExrImage one = read_exr(path(fmt::format("1/{}", name)));
+        const ExrImage many = read_exr(path(fmt::format("{}/{}", threads, name)));
+        ASSERT_EQ(one.channels.size(), many.channels.size());
+        for (std::size_t c = 0; c < one.channels.size(); ++c) {
+          EXPECT_TRUE(one.channels[c].pixels == many.channels[c].pixels)
+              << name << " " << one.channels[c].name;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ModeOption, FilesSayTheModeAndWhatThePilotTook) {
+  make_reference();
+  const auto render = [&](const std::string& mode) {
+    const Result result =
+        run({"render", "cornell-box", "--size", "20x15", "--estimator", "kl", "--frames", "4",
+             "--mode", mode, "-o", path(fmt::format("{}.exr", mode))});
+    EXPECT_EQ(result.code, 0) << result.error;
+    return read_exr(path(fmt::format("{}.exr", mode)));
+  };
+  const ExrImage reuse = render("reuse");
+  const ExrImage unbiased = render("unbiased");
+  EXPECT_EQ(reuse.attributes.at("mode"), "reuse");
+  EXPECT_EQ(reuse.attributes.at("pilotSamples"), "0");
+  EXPECT_EQ(unbiased.attributes.at("mode"), "unbiased");
+  const auto samples = std::stoull(unbiased.attributes.at("samples"));
+  EXPECT_EQ(2 * std::stoull(unbiased.attributes.at("pilotSamples")), samples);
+  double shown = 0.0;
+  for (const std::uint32_t count :
+       std::get<std::vector<std::uint32_t>>(unbiased.find("SampleCount")->pixels)) {
+    shown += count;
+  }
+  EXPECT_EQ(2.0 * shown, double(samples));
+}
+
+TEST_F(ModeOption, WrongUsageIsOneLine) {
+  const auto error = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"figure", "cornell-box", "--size",
+                                   "20x15",  "--out",       path("out")};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = run(words);
+    EXPECT_EQ(result.code, 2) << result.error;
+    return result.error;
+  };
+  EXPECT_NE(error({"--mode", "honest"}).find("there are: reuse, unbiased"), std::string::npos);
+  EXPECT_NE(error({"--lane", "kl:mode=honest"}).find("there are: reuse, unbiased"),
+            std::string::npos);
+  EXPECT_NE(error({"--estimators", "oracle"}).find("--reference: estimator 'oracle'"),
+            std::string::npos);
+  EXPECT_NE(error({"--policy", "batch", "--batch-samples", "70000"}).find("--batch-samples"),
+            std::string::npos);
+}
+
+TEST_F(ModeOption, AShortMemoryIsToldOnce) {
+  const Result result = run({"render", "cornell-box", "--size", "60x40", "--spp", "64", "--memory",
+                             "0.001", "-o", path("a.exr")});
+  ASSERT_EQ(result.code, 0) << result.error;
+  const std::size_t told = result.error.find("outgrew --memory");
+  ASSERT_NE(told, std::string::npos) << result.error;
+  EXPECT_EQ(result.error.find("outgrew", told + 8), std::string::npos);
+}
+
+}  // namespace
+}  // namespace quartet
