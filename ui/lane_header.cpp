@@ -266,12 +266,17 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
   ImGui::SetCursorScreenPos({x, box.y});
   ImGui::InvisibleButton(lane_name(lane, "numbers").c_str(), {width, font_size(frame.ui.small)});
   frame.ui.mark(lane_name(lane, "numbers"));
+  const std::string pilot =
+      last.pilot_samples == 0
+          ? ""
+          : fmt::format("\nHalf of its {} samples are of the pilot run, which is not shown.",
+                        last.samples);
   tooltip(frame.ui, fmt::format("Highest samples of a pixel: {}.\nSeconds that this lane would "
                                 "have taken alone, samples, estimates and plans: {:.3f}.\nPixels "
-                                "above a threshold: {} of {}.\nSamples rejected, negative or not "
-                                "finite: {}.",
+                                "not done: {} of {}.\nSamples rejected, negative or not "
+                                "finite: {}.{}",
                                 last.max_spp, last.seconds, last.refined, frame.snapshot->pixels(),
-                                rejected));
+                                rejected, pilot));
   text_at(frame.ui.small, x, box.y, rejected > 0 ? palette::error : palette::dim, text);
 }
 

@@ -23,8 +23,8 @@ bool looks_up(const Film& film, const SampleStore& store);
 
 // For one row of tiles; calls for different rows may come from different threads.
 
-void look_up(Film& film, const FrameSamples& samples, int tile_row);
-void accumulate(Film& film, const FrameSamples& samples, int tile_row);
+void look_up(Film& film, const FrameSamples& frame, int tile_row);
+void accumulate(Film& film, const FrameSamples& frame, int tile_row);
 
 /// Sums up what was looked up, `taken` samples of every pixel, so that it can be added to. Runs on
 /// the threads of the current TBB arena.

@@ -51,8 +51,8 @@ void Lab::make_pilot() {
       lanes_, [](const Lane& lane) { return lane.policy().use == SampleUse::unbiased; });
   if (wanted && !pilot_) {
     const std::size_t half = options_.memory / 2;
-    pilot_.emplace(options_.pilot_source,
-                   SampleStore(width(), height(), half, !options_.statistics.any()));
+    pilot_.emplace(Stream{options_.pilot_source,
+                          SampleStore(width(), height(), half, !options_.statistics.any())});
     shown_.store.set_memory_budget(half);
   }
 }

@@ -75,6 +75,27 @@ void replay(benchmark::State& state, std::size_t lanes, int threads) {
 BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
+/// Replays one lane with an estimator that wants the samples themselves, not only their means.
+void replay_samples(benchmark::State& state, EstimatorId id) {
+  const BenchScene bench("cornell-checker", width, height);
+  SamplingPolicy policy = default_policy(id);
+  policy.allocation.kind = AllocationId::vote;
+  Lab lab = bench.lab(std::span(&policy, 1), 1);
+  run(lab);
+  for (auto _ : state) {
+    lab.set_policy(0, policy);
+    run(lab);
+  }
+  const auto samples = double(lab.lanes().front().history().back().samples);
+  state.counters["s/sample"] = benchmark::Counter(
+      samples, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  const Film& film = lab.lanes().front().film();
+  state.counters["B/pixel"] = double(film.bytes()) / double(film.size());
+}
+BENCHMARK_CAPTURE(replay_samples, rigau_kl, EstimatorId::rigau_kl)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(replay_samples, rigau_chi2, EstimatorId::rigau_chi2)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(replay_samples, cycles, EstimatorId::cycles)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(replay, one_lane_two_threads, 1, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)->Unit(benchmark::kMillisecond)->UseRealTime();
 

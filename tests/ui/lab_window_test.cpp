@@ -114,6 +114,51 @@ TEST(LabWindow, EstimatorComboGivesTheLaneAnother) {
   EXPECT_EQ(hand.snapshot().lanes[2].taken, hand.snapshot().lanes[1].taken);
 }
 
+TEST(LabWindow, EveryEstimatorOfTheTableCanBeChosenAndBringsItsPolicy) {
+  LabHand hand;
+  hand.state().request.settings.width = 32;
+  hand.state().request.settings.height = 18;
+  hand.settle();
+  for (const Estimator& row : estimators()) {
+    SCOPED_TRACE(row.id);
+    const std::string id(row.id);
+    if (row.needs_reference) {
+      hand.click("lane2.estimator");
+      hand.frames(3);
+      EXPECT_FALSE(hand.has("lane2.estimator." + id)) << "there is nothing to compare with";
+      hand.click("lane2.estimator.uniform");
+      continue;
+    }
+    hand.choose("lane2.estimator", id);
+    hand.settle();
+    EXPECT_EQ(hand.policy(2), default_policy(row.key));
+    EXPECT_EQ(hand.snapshot().lanes[2].policy, hand.policy(2));
+    EXPECT_EQ(hand.snapshot().lanes[2].error.size(),
+              std::size_t(row.channels) * hand.snapshot().pixels());
+  }
+  // A policy that was chosen stays.
+  hand.choose("lane2.policy", "two-level");
+  hand.choose("lane2.estimator", "cycles");
+  EXPECT_EQ(hand.policy(2).allocation.kind, AllocationId::two_level);
+}
+
+TEST(LabWindow, TheModeComboMakesALaneUnbiased) {
+  LabHand hand;
+  hand.settle();
+  const Snapshot before = hand.snapshot();
+  hand.choose("lane1.mode", "unbiased");
+  hand.settle();
+  EXPECT_EQ(hand.policy(1).use, SampleUse::unbiased);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const LaneSnapshot& now = hand.snapshot().lanes[lane];
+    EXPECT_EQ(now.mean != before.lanes[lane].mean, lane == 1) << lane;
+    EXPECT_EQ(now.history.back().pilot_samples > 0, lane == 1) << lane;
+  }
+  hand.choose("lane1.mode", "reuse");
+  hand.settle();
+  EXPECT_EQ(hand.snapshot().lanes[1].mean, before.lanes[1].mean);
+}
+
 TEST(LabWindow, FramesAreScrubbedSteppedAndPlayed) {
   LabHand hand;
   ASSERT_EQ(hand.snapshot().frame, 5u);
