@@ -25,10 +25,10 @@ ErrorTarget parse_error_target(std::string_view text);
 
 /// When a lane has had enough: at the first of these that holds. Looked at after whole frames.
 struct StopConditions {
-  std::optional<std::uint32_t> frames;
-  std::optional<double> spp;      ///< mean over the pixels
-  std::optional<double> seconds;  ///< as if alone
-  std::optional<ErrorTarget> error;
+  std::optional<std::uint32_t> frames = {};
+  std::optional<double> spp = {};      ///< mean over the pixels
+  std::optional<double> seconds = {};  ///< as if alone
+  std::optional<ErrorTarget> error = {};
 
   bool any() const { return frames || spp || seconds || error; }
 

@@ -1,0 +1,41 @@
+#include "renderer/measure/error_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace quartet {
+
+ErrorCurve::ErrorCurve(std::vector<Point> points) : points_(std::move(points)) {
+  std::erase_if(points_, [](const Point& p) { return !(p.cost > 0.0 && p.error > 0.0); });
+  std::ranges::sort(points_, {}, &Point::cost);
+}
+
+double ErrorCurve::error_at(double cost) const {
+  if (points_.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto right = std::ranges::lower_bound(points_, cost, {}, &Point::cost);
+  if (right == points_.begin() || right == points_.end()) {
+    const Point& end = right == points_.end() ? points_.back() : points_.front();
+    return end.error * std::pow(cost / end.cost, slope_beyond);
+  }
+  const Point& a = *(right - 1);
+  const double share = std::log(cost / a.cost) / std::log(right->cost / a.cost);
+  return a.error * std::pow(right->error / a.error, share);
+}
+
+ErrorCurve error_over_seconds(std::span<const Measurement> run, std::size_t metric) {
+  std::vector<ErrorCurve::Point> points;
+  for (const Measurement& measurement : run) {
+    points.push_back({measurement.record.seconds, measurement.values[metric]});
+  }
+  return ErrorCurve(std::move(points));
+}
+
+double slope_of(const Metric& metric) {
+  return metric.quadratic ? -1.0 : -0.5;
+}
+
+}  // namespace quartet

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/measure/metrics.h"
+#include "renderer/measure/stop_conditions.h"
+
+namespace quartet {
+
+/// A lane at the end of a frame, measured.
+struct Measurement {
+  FrameRecord record;
+  double mean_spp = 0.0;
+  std::vector<double> values;  ///< of the metrics that were asked for, in their order
+};
+
+/// At which frames a run is measured; at its end it always is.
+enum class MeasureAt { end, powers_of_two, every_frame };
+
+/// How one lane is run.
+struct RunPlan {
+  SamplingPolicy policy;
+  StopConditions stop;                 ///< the run ends after the first frame where one holds
+  std::vector<MetricId> metrics = {};  ///< none: only what a run costs is measured
+  MeasureAt measure_at = MeasureAt::end;
+};
+
+/// Runs lanes one after the other over one store of samples, so that a run costs little but for the
+/// samples that no earlier run took: sweeps, bisections and comparisons are replays. What a run
+/// gives does not depend on the runs before it, but for the measured seconds.
+class Experiment {
+ public:
+  /// `reference`, as large as the picture, may be null if no run is measured, stops at an error or
+  /// has an estimator that looks at it.
+  Experiment(SampleSource source, int width, int height, const LabOptions& options,
+             std::shared_ptr<const RadianceImage> reference = nullptr);
+
+  /// The measurements of a run, in the order of their frames; the last one is that of its end.
+  /// Nothing if `stop` ended it early. `progress`, if any, is told after each frame how much of the
+  /// run is done. Throws std::invalid_argument if it needs a reference and there is none, or if
+  /// nothing would ever end it.
+  std::optional<std::vector<Measurement>> run(const RunPlan& plan, std::stop_token stop = {},
+                                              const std::function<void(double)>& progress = {});
+
+  /// The first samples of every pixel with their variances, out of the store as far as it has them.
+  Film first_samples(std::uint32_t spp) const;
+
+  /// As the last run left it.
+  const Lane& lane() const { return lab_.lanes().front(); }
+  const SampleStore& store() const { return lab_.store(); }
+  const RadianceImage* reference() const { return reference_.get(); }
+  int width() const { return lab_.width(); }
+  int height() const { return lab_.height(); }
+
+  /// Samples that all runs together have used; that they were traced once is what saves time.
+  std::uint64_t samples_used() const { return samples_used_; }
+
+ private:
+  Measurement measure(std::span<const MetricId> metrics) const;
+
+  std::shared_ptr<const RadianceImage> reference_;
+  SampleSource source_;
+  Lab lab_;
+  std::uint64_t samples_used_ = 0;
+};
+
+}  // namespace quartet

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace quartet {
+
+class Film;
+class Lane;
+
+// How good an estimator is: what its errors say of the true ones, pixel by pixel. Errors are
+// compared with the true squared error, the mean over the channels of (x − r)².
+
+/// Pixels that an estimator finds about equally wrong, and how wrong they are.
+struct CalibrationBin {
+  double estimated = 0.0;           ///< mean of their estimated errors
+  double true_squared_error = 0.0;  ///< mean
+  std::size_t pixels = 0;
+};
+
+/// Pixels in the order of their estimated error, in about `bins` groups of as equal a size as ties
+/// allow: those with the same estimate are in one bin. A good estimator gives a rising curve.
+/// Pixels whose estimate is not finite are left out.
+std::vector<CalibrationBin> calibration_curve(std::span<const float> estimated,
+                                              std::span<const float> true_squared_error,
+                                              std::size_t bins);
+
+/// Spearman's rank correlation in [−1, 1]: Pearson's, of ranks, where values that tie have the mean
+/// of their ranks. NaN where either side does not vary.
+double rank_correlation(std::span<const float> a, std::span<const float> b);
+
+/// Pixels that an estimator takes to be done though they are worse than half of those that it still
+/// refines: their true error is above the median of theirs.
+struct FalseStops {
+  std::size_t done = 0;      ///< pixels
+  std::size_t refining = 0;  ///< pixels
+  std::size_t wrong = 0;     ///< of those done
+
+  /// Of the pixels done; NaN where either kind of pixel is missing, and with it the question.
+  double share() const;
+};
+
+/// `scaled_error` in units of the threshold: above 1 a pixel is still refined.
+FalseStops false_stops(std::span<const float> scaled_error,
+                       std::span<const float> true_squared_error);
+
+/// Share of the samples that lie elsewhere than an oracle would have put them: the total variation
+/// distance ½ Σ |n_p / Σn − w_p / Σw| between the shares of the samples and those of the weights.
+/// 0: the same everywhere; 1: nowhere both. NaN if either sum is 0.
+double share_distance(std::span<const std::uint32_t> samples, std::span<const float> weights);
+
+/// The weights of the oracle: the root of the variance of one sample, summed over the channels. A
+/// given number of samples has the least mean squared error when they are spread in proportion to
+/// it (Neyman, "On the Two Different Aspects of the Representative Method", 1934). `film` keeps
+/// variances.
+std::vector<float> oracle_weights(const Film& film);
+
+/// Errors of a lane in units of their thresholds, the largest of the channels: above 1 a pixel is
+/// refined. Empty before the first frame and for an estimator without an error.
+std::vector<float> scaled_errors(const Lane& lane);
+
+/// All of the above of a lane, whose picture is off by `true_squared_error`. Of an estimator
+/// without an error only the distance is a number.
+struct EstimatorQuality {
+  double rank_correlation = 0.0;
+  FalseStops stops;
+  double oracle_distance = 0.0;
+  std::vector<CalibrationBin> calibration;  ///< against errors in units of the threshold
+};
+EstimatorQuality quality_of(const Lane& lane, std::span<const float> true_squared_error,
+                            std::span<const float> oracle);
+
+}  // namespace quartet

@@ -1,0 +1,150 @@
+#include "renderer/measure/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "tests/image/temp_folder.h"
+#include "tests/measure/noisy_source.h"
+
+namespace quartet {
+namespace {
+
+constexpr int width = 96;
+constexpr int height = 64;
+
+Experiment make_experiment(int threads = 0) {
+  LabOptions options;
+  options.threads = threads;
+  return Experiment(test::noisy_source(width), width, height, options,
+                    std::make_shared<const RadianceImage>(test::noisy_truth(width, height)));
+}
+
+std::vector<SamplingPolicy> policies_with_thresholds() {
+  std::vector<SamplingPolicy> policies;
+  for (const Estimator& row : estimators()) {
+    if (row.channels > 0) {
+      policies.push_back(default_policy(row.key));
+      policies.back().allocation.kind = AllocationId::vote;
+    }
+  }
+  return policies;
+}
+
+/// What a policy gives, by a run of its own.
+Measurement run_of(const SamplingPolicy& policy, std::uint32_t frames) {
+  Experiment experiment = make_experiment();
+  return experiment
+      .run({.policy = policy, .stop = {.frames = frames}, .metrics = {MetricId::relmse}})
+      ->back();
+}
+
+TEST(Calibrate, EveryEstimatorMeetsTheSameMeanOfSamples) {
+  Experiment experiment = make_experiment();
+  for (const SamplingPolicy& policy : policies_with_thresholds()) {
+    SCOPED_TRACE(estimator(policy.estimator).id);
+    const auto found = calibrate(experiment, policy, {.frames = 12, .spp = 24.0});
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->met) << found->reason;
+    EXPECT_NEAR(found->result.mean_spp, 24.0, 0.24);
+    EXPECT_EQ(found->result.record.frame, 12u);
+    // The thresholds alone reproduce it.
+    EXPECT_EQ(run_of(found->policy, 12).record.samples, found->result.record.samples);
+    // All are scaled alike.
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(found->policy.thresholds[c], float(double(policy.thresholds[c]) * found->factor));
+    }
+    EXPECT_LT(found->runs, 40);
+  }
+}
+
+TEST(Calibrate, IsTheSameTwiceAndWithAnyThreads) {
+  std::vector<Calibration> found;
+  for (const int threads : {1, 2, 2}) {
+    Experiment experiment = make_experiment(threads);
+    found.push_back(
+        *calibrate(experiment, default_policy(EstimatorId::kl), {.frames = 10, .spp = 20.0}));
+  }
+  EXPECT_EQ(found[0].policy, found[1].policy);
+  EXPECT_EQ(found[0].policy, found[2].policy);
+  EXPECT_EQ(found[0].runs, found[1].runs);
+}
+
+TEST(Calibrate, MeetsAnError) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  const double middle = std::sqrt(run_of(scaled_thresholds(policy, 1e6), 12).values[0] *
+                                  run_of(scaled_thresholds(policy, 1e-6), 12).values[0]);
+  const auto found =
+      calibrate(experiment, policy, {.frames = 12, .error = ErrorTarget{MetricId::relmse, middle}});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_NEAR(found->result.values[0], middle, 0.011 * middle);
+}
+
+TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  const auto free =
+      experiment.run({.policy = policy, .stop = {.frames = 12}, .metrics = {MetricId::psnr}});
+  const double psnr = free->back().values[0];
+  const auto found = calibrate(experiment, scaled_thresholds(policy, 1.5),
+                               {.frames = 12, .error = ErrorTarget{MetricId::psnr, psnr}});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->result.values[0], psnr, 0.05);
+}
+
+TEST(Calibrate, SaysWhyABudgetCannotBeMet) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::hellinger);
+  auto found = calibrate(experiment, policy, {.frames = 15, .spp = 4.0});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_EQ(found->reason, "15 frames of vote take at least 15 spp");
+  EXPECT_EQ(found->result.mean_spp, 15.0);
+  found = calibrate(experiment, policy, {.frames = 3, .spp = 50.0});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_EQ(found->reason.substr(0, 30), "3 frames of vote take at most ");
+  EXPECT_GT(found->result.mean_spp, 9.0);
+  found =
+      calibrate(experiment, policy, {.frames = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_NE(found->reason.find("lowest threshold give relmse"), std::string::npos) << found->reason;
+}
+
+TEST(Calibrate, UniformTakesAsManyFramesAsTheBudgetHas) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy uniform = default_policy(EstimatorId::uniform);
+  auto found = calibrate(experiment, uniform, {.frames = 15, .spp = 24.0});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met);
+  EXPECT_EQ(found->result.record.frame, 24u);
+  found = calibrate(experiment, uniform, {.frames = 15, .spp = 2.5});
+  EXPECT_FALSE(found->met);
+  EXPECT_NE(found->reason.find("whole frames"), std::string::npos);
+}
+
+TEST(Calibrate, CanBeStopped) {
+  Experiment experiment = make_experiment();
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(
+      calibrate(experiment, default_policy(EstimatorId::kl), {.spp = 24.0}, stop.get_token()));
+}
+
+TEST(Calibrate, WantsExactlyOneBudget) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  EXPECT_NE(error_of([&] { calibrate(experiment, policy, {}); }), "");
+  EXPECT_NE(error_of([&] { calibrate(experiment, policy, {.spp = 3.0, .seconds = 3.0}); }), "");
+  Experiment blind(test::noisy_source(width), width, height, {});
+  const CommonBudget error{.error = ErrorTarget{}};
+  EXPECT_NE(error_of([&] { calibrate(blind, policy, error); }).find("reference"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace quartet
