@@ -28,7 +28,7 @@ void set_dashes(cairo_t* cairo, bool dashed) {
 
 void stroke(cairo_t* cairo, std::span<const glm::dvec2> points, const Line& line) {
   set_color(cairo, line.color);
-  cairo_set_line_width(cairo, kLineWidth);
+  cairo_set_line_width(cairo, kLineWidth * double(line.width));
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   set_dashes(cairo, line.dashed);
   for (const glm::dvec2& point : points) {

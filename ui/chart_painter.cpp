@@ -164,7 +164,7 @@ void draw_data(const Ui& ui, const Mapping& map) {
     if (line.dashed) {
       draw_dashes(ui, points, color);
     } else {
-      list.AddPolyline(points.data(), int(points.size()), color, 0, ui.px(1.5f));
+      list.AddPolyline(points.data(), int(points.size()), color, 0, ui.px(1.5f * line.width));
     }
     if (line.dots) {
       for (const ImVec2& point : points) {

@@ -40,8 +40,9 @@ struct Line {
   Rgba8 color;
   std::vector<glm::dvec2> points;
   bool dashed = false;
-  bool dots = false;  ///< a dot at each point: what was measured
-  int id = -1;        ///< whose line it is, such as a lane's number; -1: nobody's
+  bool dots = false;   ///< a dot at each point: what was measured
+  float width = 1.0f;  ///< of ordinary lines
+  int id = -1;         ///< whose line it is, such as a lane's number; -1: nobody's
 };
 
 /// The area between two curves, such as a line's spread over seeds: that of the quadrilaterals
