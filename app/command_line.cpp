@@ -67,6 +67,9 @@ int run_command_line(int argc, const char* const* argv) {
   add_screenshot_command(app, program);
   add_reference_command(app, program);
   add_compare_command(app, program);
+  add_sweep_command(app, program);
+  add_calibrate_command(app, program);
+  add_claims_command(app, program);
   add_list_command(app, program);
   add_info_command(app, program);
   add_trace_command(app, program);

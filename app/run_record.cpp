@@ -20,14 +20,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string thresholds_text(const SamplingPolicy& policy) {
-  std::string text;
-  for (int c = 0; c < estimator(policy.estimator).channels; ++c) {
-    text += fmt::format("{}{}", c > 0 ? " " : "", policy.thresholds[std::size_t(c)]);
-  }
-  return text;
-}
-
 /// The depth as Mitsuba writes it.
 int depth_number(int max_depth) {
   return max_depth == std::numeric_limits<int>::max() ? -1 : max_depth;
@@ -175,9 +167,16 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
   return json.dump(2) + "\n";
 }
 
+std::string thresholds_text(const SamplingPolicy& policy) {
+  std::string text;
+  for (int c = 0; c < estimator(policy.estimator).channels; ++c) {
+    text += fmt::format("{}{}", c > 0 ? " " : "", policy.thresholds[std::size_t(c)]);
+  }
+  return text;
+}
+
 std::string csv_record(const Snapshot& snapshot) {
-  std::string csv =
-      "scene,estimator,policy,mode,thresholds,seed,frame,seconds,samples,mean_spp,metric,value\n";
+  std::string csv(csv_header);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     const SamplingPolicy& policy = lane.policy;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "renderer/adaptive/snapshot.h"
 #include "renderer/measure/reference.h"
@@ -29,6 +30,12 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
 /// each lane with its history and its errors against the reference.
 std::string json_record(const std::string& command_line, const Snapshot& snapshot,
                         const std::optional<RunCost>& cost, const Reference* reference = nullptr);
+
+/// The first line of every long-form CSV.
+inline constexpr std::string_view csv_header =
+    "scene,estimator,policy,mode,thresholds,seed,frame,seconds,samples,mean_spp,metric,value\n";
+/// The thresholds that matter, separated by spaces: no comma inside a CSV field.
+std::string thresholds_text(const SamplingPolicy& policy);
 
 /// Long form, one row a measurement: scene, estimator, policy, thresholds, seed, frame, seconds,
 /// samples, mean_spp, metric, value. Every frame of every lane; the errors against a reference of

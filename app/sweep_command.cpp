@@ -1,0 +1,254 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/lane_option.h"
+#include "app/number_check.h"
+#include "app/progress.h"
+#include "app/reference_option.h"
+#include "app/run_options.h"
+#include "app/stop_options.h"
+#include "app/sweep_files.h"
+#include "renderer/image/staged_files.h"
+#include "renderer/image/ticks.h"
+#include "renderer/measure/sweep_charts.h"
+
+namespace quartet {
+namespace {
+
+struct SweepOptions {
+  RunOptions run;
+  std::vector<std::string> estimators;  // none: all
+  SweepPlan plan;
+  std::string range = "0.1:10";
+  std::string metric = "relmse";
+  StopOptions stop{.frames = 15, .spp = 64.0, .seconds = {}, .error = {}};
+  std::string reference;
+  std::uint32_t reference_spp = 1024;
+  bool verify_time = false;
+  std::string out;
+};
+
+void parse_range(const std::string& text, SweepPlan& plan) {
+  const char* const end = text.data() + text.size();
+  const auto [colon, low_error] = std::from_chars(text.data(), end, plan.low);
+  bool good = low_error == std::errc() && colon != end && *colon == ':';
+  if (good) {
+    const auto [stop, high_error] = std::from_chars(colon + 1, end, plan.high);
+    good = high_error == std::errc() && stop == end;
+  }
+  constexpr double most = 1e6;
+  if (!good || !(plan.low >= 1.0 / most && plan.low < plan.high && plan.high <= most)) {
+    throw UsageError(
+        fmt::format("--range: '{}' is no range of factors; write LOW:HIGH with 0 < LOW < HIGH, "
+                    "such as 0.1:10",
+                    text));
+  }
+}
+
+std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options) {
+  LaneOptions lanes;
+  lanes.estimators = options.estimators;
+  if (lanes.estimators.empty()) {
+    for (const Estimator& row : estimators()) {
+      lanes.estimators.emplace_back(row.id);
+    }
+  }
+  std::vector<SamplingPolicy> policies = policies_of(lanes, options.run);
+  // The baseline is in every sweep, with frames for its thresholds.
+  std::erase_if(policies, [](const SamplingPolicy& policy) {
+    return estimator(policy.estimator).channels == 0;
+  });
+  return policies;
+}
+
+SweepPlan sweep_plan(const SweepOptions& options) {
+  SweepPlan plan = options.plan;
+  parse_range(options.range, plan);
+  plan.policies = sweep_policies(options);
+  plan.metrics = {find_metric(options.metric).key};
+  for (const MetricId id : {MetricId::relmse, MetricId::mse, MetricId::flip}) {
+    if (id != plan.metrics.front()) {
+      plan.metrics.push_back(id);
+    }
+  }
+  plan.stop = stop_conditions(options.stop, true);
+  return plan;
+}
+
+std::string seed_text(int seeds) {
+  return seeds == 1 ? "1 seed" : fmt::format("{} seeds", seeds);
+}
+
+void print_points(const SweepSummary& summary) {
+  const Metric& row = metric(summary.metric);
+  fmt::print("Of uniform: the error over that of uniform sampling after the same time.\n");
+  fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "estimator", "factor", "mean spp",
+             "seconds", row.id, "of uniform");
+  for (std::size_t begin = 0; begin < summary.points.size();) {
+    const EstimatorId id = summary.points[begin].policy.estimator;
+    const SweepPoint* normal = nullptr;
+    const SweepPoint* best = &summary.points[begin];
+    std::size_t end = begin;
+    for (; end < summary.points.size() && summary.points[end].policy.estimator == id; ++end) {
+      const SweepPoint& point = summary.points[end];
+      normal = point.factor == 1.0 ? &point : normal;
+      best = point.against_uniform < best->against_uniform ? &point : best;
+    }
+    const auto print = [&](std::string_view label, const SweepPoint& point, std::string_view note) {
+      fmt::print("{:<22} {:>9.3g} {:>9.2f} {:>9.3f} {:>11.4g} {:>11.3f}   {}\n", label,
+                 point.factor, point.mean_spp, point.seconds, point.error, point.against_uniform,
+                 note);
+    };
+    print(estimator(id).label, *normal, "at its default threshold");
+    if (best->against_uniform < normal->against_uniform) {
+      print("", *best, "at the best of the sweep");
+    }
+    begin = end;
+  }
+  const SweepPoint& uniform = summary.uniform.back();
+  fmt::print("{:<22} {:>9} {:>9.2f} {:>9.3f} {:>11.4g} {:>11.3f}\n", "uniform", "",
+             uniform.mean_spp, uniform.seconds, uniform.error, 1.0);
+}
+
+void print_savings(const SweepResult& result) {
+  fmt::print("traced samples / samples used: {} / {} = {:.4f}{}\n", result.samples_traced,
+             result.samples_used, double(result.samples_traced) / double(result.samples_used),
+             result.partial ? "; some were traced again: a larger --memory would keep them" : "");
+}
+
+/// Reruns every policy at its default thresholds, and the baseline, each alone in a lab of its own,
+/// and compares what a user waits with what the sweep charged.
+void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_token stop) {
+  fmt::print("\n{:<22} {:>9} {:>14} {:>14} {:>11}\n", "estimator", "mean spp", "as if alone, s",
+             "alone, s", "difference");
+  double sum = 0.0;
+  double absolute = 0.0;
+  int count = 0;
+  const auto compare = [&](const SamplingPolicy& policy, const Measurement& charged) {
+    Lab lab(world.source(world.first_seed), world.width, world.height, std::span(&policy, 1),
+            lab_options(world, world.first_seed));
+    const auto start = std::chrono::steady_clock::now();
+    while (lab.frame() < charged.record.frame) {
+      if (!lab.run_frame(stop) || stop.stop_requested()) {
+        throw Interrupted();
+      }
+    }
+    const double alone =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double difference = charged.record.seconds / alone - 1.0;
+    fmt::print("{:<22} {:>9.2f} {:>14.3f} {:>14.3f} {:>+9.1f} %\n",
+               estimator(policy.estimator).label, charged.mean_spp, charged.record.seconds, alone,
+               100.0 * difference);
+    sum += difference;
+    absolute += std::abs(difference);
+    ++count;
+  };
+  compare(default_policy(EstimatorId::uniform), result.uniform.front().back());
+  for (const SweepRun& run : result.runs) {
+    if (run.seed == result.first_seed && run.factor == 1.0) {
+      compare(run.policy, run.end);
+    }
+  }
+  fmt::print("as-if-alone time is off by {:+.1f} % on average, {:.1f} % in absolute terms{}\n",
+             100.0 * sum / count, 100.0 * absolute / count,
+             std::abs(sum) <= 0.05 * count ? "" : ": more than the 5 % that are promised");
+}
+
+void run_sweep_command(const SweepOptions& options, const Program& program) {
+  const SweepPlan plan = sweep_plan(options);
+  if (options.run.seed > UINT64_MAX - std::uint64_t(plan.seeds)) {
+    throw UsageError("--seed: so near the highest number there are not enough seeds after it");
+  }
+  Run run = prepare_run(options.run, 1);
+  // Variances would cost every run memory and time, and no estimator that does not ask for them.
+  run.lab.statistics = {};
+  StagedFiles files(options.out);
+  std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
+  if (!reference) {
+    reference = reference_for(run, options.reference_spp, program.command_line);
+  }
+  const SampleWorld world = sample_world(run.scene, run.settings, run.lab, image_of(reference));
+  const Interrupt interrupt;
+  std::optional<SweepResult> result;
+  {
+    Progress progress("sweep");
+    result = run_sweep(world, plan, interrupt.token(), [&](double done, std::string_view detail) {
+      progress.update(done, detail);
+    });
+  }
+  if (!result) {
+    throw Interrupted();
+  }
+  const SweepReport report{run,
+                           plan,
+                           *result,
+                           reference->noise_floor(plan.metrics.front()),
+                           reference->spp,
+                           program.command_line};
+  write_sweep_files(files, report);
+  files.commit();
+  print_points(summarize(*result, plan, 0, report.noise_floor));
+  print_savings(*result);
+  fmt::print("sweep and calibration as .csv, .png, .pdf and .svg are in {}; median of {}\n",
+             options.out, seed_text(plan.seeds));
+  if (options.verify_time) {
+    verify_time(world, *result, interrupt.token());
+  }
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, const Program& program) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Error against time and samples for every estimator over a range of thresholds");
+  const auto options = std::make_shared<SweepOptions>();
+  add_run_options(*command, options->run);
+  command
+      ->add_option("--estimators", options->estimators,
+                   "Which, separated by commas; all if not given. uniform is always the baseline")
+      ->delimiter(',');
+  command
+      ->add_option("--thresholds", options->plan.thresholds,
+                   "Points of each curve; the default threshold is added where it is none of them")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--range", options->range, "Factors on the default thresholds")
+      ->type_name("LOW:HIGH")
+      ->capture_default_str();
+  command->add_option("--seeds", options->plan.seeds, "Independent repetitions, from --seed on")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--metric", options->metric, "Of the chart: see quartet list")
+      ->capture_default_str();
+  add_stop_options(*command, options->stop);
+  add_reference_option(*command, options->reference);
+  command
+      ->add_option("--reference-spp", options->reference_spp,
+                   "Of the reference that is made, and kept, where none is given")
+      ->check(CLI::Range(2u, 1u << 30))
+      ->capture_default_str();
+  command->add_flag("--verify-time", options->verify_time,
+                    "Rerun some points alone, without shared samples, and compare their time");
+  command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
+  command->footer(
+      "A point of a curve is where a run ends with the default thresholds times a factor: after "
+      "15 frames,\nor at 64 mean samples per pixel, unless told otherwise. Under the policy vote "
+      "every pixel gets at\nleast one sample a frame, so that the highest thresholds still cost "
+      "what uniform sampling of as many\nframes does. The baseline goes on until the cost limit, "
+      "whatever --frames says.\n"
+      "Examples:\n"
+      "  quartet sweep cornell-checker --size 480x270 --out sweep\n"
+      "  quartet sweep veach-plates --estimators contrast,kl --thresholds 16 --seeds 5 "
+      "--metric flip --out plates");
+  command->callback([options, &program] { run_sweep_command(*options, program); });
+}
+
+}  // namespace quartet

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "renderer/measure/regions.h"
+#include "tests/app/program.h"
+#include "tests/image/temp_folder.h"
+
+namespace quartet {
+namespace {
+
+/// A cache of its own, so that tests neither read nor leave references elsewhere.
+class SweepCommands : public testing::Test {
+ protected:
+  SweepCommands() { ::setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
+  ~SweepCommands() override { ::unsetenv("XDG_CACHE_HOME"); }
+
+  std::vector<std::string> sweep(std::vector<std::string> more) const {
+    std::vector<std::string> words{
+        "sweep", "cornell-box", "--size",  "16x16", "--reference-spp", "32", "--frames", "4",
+        "--spp", "10",          "--seeds", "2",     "--thresholds",    "3"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  std::string out() const { return (folder_.path() / "out").string(); }
+
+  TempFolder folder_;
+};
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) {
+      fields.push_back(word);
+    }
+    rows.push_back(fields);
+  }
+  return rows;
+}
+
+TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
+  const auto result = run(sweep({"--estimators", "kl,contrast", "--out", out()}));
+  ASSERT_EQ(result.code, 0) << result.error;
+  EXPECT_NE(result.out.find("traced samples / samples used: "), std::string::npos);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(out())) {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"sweep.csv", "sweep.png", "sweep.pdf", "sweep.svg",
+                                          "calibration.csv", "calibration.png", "calibration.pdf",
+                                          "calibration.svg"}));
+  const auto rows = rows_of(bytes_of(folder_.path() / "out" / "sweep.csv"));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"scene", "estimator", "policy", "mode", "thresholds",
+                                               "seed", "frame", "seconds", "samples", "mean_spp",
+                                               "metric", "value"}));
+  std::map<std::string, int> metrics;
+  std::set<std::string> seeds;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 12u) << i;
+    EXPECT_EQ(rows[i][0], "cornell-box");
+    metrics[rows[i][1] + " " + rows[i][10]]++;
+    seeds.insert(rows[i][5]);
+    EXPECT_TRUE(std::isfinite(std::stod(rows[i][11])));
+  }
+  EXPECT_EQ(seeds, (std::set<std::string>{"0", "1"}));
+  for (const std::string name : {"relmse", "mse", "flip", "oracle_distance"}) {
+    EXPECT_EQ(metrics["kl " + name], 3 * 2) << name;
+    EXPECT_EQ(metrics["contrast " + name], 3 * 2) << name;
+  }
+  // The baseline at frames 1, 2, 4, 8, 10.
+  EXPECT_EQ(metrics["uniform relmse"], 5 * 2);
+  EXPECT_GT(rows_of(bytes_of(folder_.path() / "out" / "calibration.csv")).size(), 10u);
+}
+
+TEST_F(SweepCommands, VerifyTimeComparesWithRunsAlone) {
+  const auto result = run(sweep({"--estimators", "kl", "--verify-time", "--out", out()}));
+  ASSERT_EQ(result.code, 0) << result.error;
+  EXPECT_NE(result.out.find("as if alone"), std::string::npos);
+  EXPECT_NE(result.out.find("% on average"), std::string::npos);
+}
+
+TEST_F(SweepCommands, SweepRefusesBadInput) {
+  expect_usage_error(sweep({"--out", out(), "--range", "2:1"}), "--range: '2:1' is no range");
+  expect_usage_error(sweep({"--out", out(), "--range", "0:1"}), "LOW:HIGH");
+  expect_usage_error(sweep({"--out", out(), "--range", "nan:1"}), "LOW:HIGH");
+  expect_usage_error(sweep({"--out", out(), "--range", "1"}), "LOW:HIGH");
+  expect_usage_error(sweep({"--out", out(), "--metric", "beauty"}), "there are: mse");
+  expect_usage_error(sweep({"--out", out(), "--estimators", "none"}), "there are: contrast");
+  expect_usage_error(sweep({"--out", out(), "--seeds", "0"}), "--seeds");
+  expect_usage_error(sweep({"--out", out(), "--thresholds", "-1"}), "--thresholds");
+  expect_usage_error(sweep({}), "--out");
+  const auto missing = run(sweep({"--out", out(), "--reference", "/nowhere/ref.exr"}));
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.error.find("/nowhere/ref.exr"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(out())) << "nothing half-written";
+  const auto unwritable = run(sweep({"--out", "/proc/nowhere"}));
+  EXPECT_EQ(unwritable.code, 1);
+  EXPECT_EQ(std::ranges::count(unwritable.error, '\n'), 1) << unwritable.error;
+}
+
+TEST_F(SweepCommands, CalibrateMeetsABudgetThatItsLanesReproduce) {
+  const auto result = run({"calibrate", "cornell-box", "--size", "48x48", "--spp", "12", "--frames",
+                           "8", "--estimators", "kl,contrast,uniform", "--json"});
+  ASSERT_EQ(result.code, 0) << result.error;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("budget"), "12 spp");
+  ASSERT_EQ(json.at("estimators").size(), 3u);
+  for (const auto& entry : json.at("estimators")) {
+    EXPECT_TRUE(entry.at("met").get<bool>()) << entry.dump();
+    EXPECT_NEAR(entry.at("mean_spp").get<double>(), 12.0, 0.13);
+  }
+  const auto figure = run({"figure", "cornell-box", "--size", "48x48", "--frames", "8", "--lane",
+                           json.at("estimators")[0].at("lane").get<std::string>(), "--out", out()});
+  ASSERT_EQ(figure.code, 0) << figure.error;
+  const auto panels = nlohmann::json::parse(bytes_of(folder_.path() / "out" / "panels.json"));
+  EXPECT_DOUBLE_EQ(panels.at("lanes")[0].at("history").back().at("mean_spp").get<double>(),
+                   json.at("estimators")[0].at("mean_spp").get<double>());
+}
+
+TEST_F(SweepCommands, CalibrateSaysWhatCannotBeMet) {
+  const auto result =
+      run({"calibrate", "cornell-box", "--size", "16x16", "--spp", "3", "--estimators", "kl"});
+  ASSERT_EQ(result.code, 0) << result.error;
+  EXPECT_NE(result.out.find("kl: 3 spp cannot be met: 15 frames of vote take at least 15 spp"),
+            std::string::npos)
+      << result.out;
+  expect_usage_error({"calibrate", "cornell-box"}, "no budget given");
+  expect_usage_error({"calibrate", "cornell-box", "--spp", "3", "--seconds", "2"},
+                     "more than one budgets are given");
+  expect_usage_error({"calibrate", "cornell-box", "--error", "relmse"}, "METRIC=VALUE");
+  expect_usage_error({"calibrate", "cornell-box", "--spp", "nan"}, "--spp");
+}
+
+TEST_F(SweepCommands, CalibrateMeetsAnErrorAgainstAReferenceThatItMakes) {
+  const auto result =
+      run({"calibrate", "cornell-box", "--size", "24x24", "--error", "relmse=0.02", "--frames", "8",
+           "--estimators", "kl", "--reference-spp", "64", "--json"});
+  ASSERT_EQ(result.code, 0) << result.error;
+  const auto entry = nlohmann::json::parse(result.out).at("estimators")[0];
+  EXPECT_TRUE(entry.contains("relmse"));
+  EXPECT_NE(entry.at("met").get<bool>(), entry.contains("reason"));
+}
+
+TEST_F(SweepCommands, ClaimsJudgesEveryFinding) {
+  const std::string csv = (folder_.path() / "claims.csv").string();
+  const std::vector<std::string> words{"claims", "--size",  "64x36", "--frames",
+                                       "4",      "--seeds", "2",     "--reference-spp",
+                                       "32",     "--csv",   csv};
+  const auto text = run(words);
+  ASSERT_EQ(text.code, 0) << text.error;
+  for (int finding = 1; finding <= 5; ++finding) {
+    EXPECT_NE(text.out.find("Finding " + std::to_string(finding) + ": "), std::string::npos);
+  }
+  EXPECT_NE(text.out.find("ceiling"), std::string::npos);
+  const auto rows = rows_of(bytes_of(csv));
+  double share = 0.0;
+  for (const auto& row : rows) {
+    ASSERT_EQ(row.size(), 8u);
+    share += row[4] == "share" && row[1] == "kl" ? std::stod(row[5]) : 0.0;
+  }
+  EXPECT_NEAR(share, 1.0, 1e-6);
+  std::vector<std::string> as_json = words;
+  as_json.emplace_back("--json");
+  const auto json = nlohmann::json::parse(run(as_json).out);
+  EXPECT_EQ(json.at("findings").size(), 5u);
+  EXPECT_EQ(json.at("seeds"), 2);
+
+  const auto other = run({"claims", "veach-plates", "--size", "16x9"});
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.error.find("has no shape 'ceiling'"), std::string::npos) << other.error;
+}
+
+}  // namespace
+}  // namespace quartet
