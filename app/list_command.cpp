@@ -89,6 +89,7 @@ void print_tables() {
   for (const Metric& row : metrics()) {
     fmt::print("  {:<15} {}\n", row.id, row.definition);
   }
+  fmt::print("  {:<15} 1/(mse · seconds)\n", "efficiency");
   fmt::print("integrators\n");
   for (const Integrator& row : integrators()) {
     fmt::print("  {:<15} {}\n", row.id, row.description);

@@ -58,9 +58,8 @@ std::span<const float> channels_of(const RadianceImage& image) {
 
 bool all_finite(std::span<const float> values) {
   int bad = 0;
-#pragma omp simd reduction(| : bad)
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    bad |= !(std::abs(values[i]) <= std::numeric_limits<float>::max());
+  for (const float value : values) {
+    bad |= std::abs(value) <= std::numeric_limits<float>::max() ? 0 : 1;  // of NaN, too
   }
   return bad == 0;
 }
