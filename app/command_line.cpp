@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/number_check.h"
 #include "app/shell_words.h"
+#include "app/study_commands.h"
 #include "renderer/version.h"
 
 namespace quartet {
@@ -73,6 +74,8 @@ int run_command_line(int argc, const char* const* argv) {
   add_list_command(app, program);
   add_info_command(app, program);
   add_trace_command(app, program);
+  add_bias_command(app, program);
+  add_stability_command(app, program);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {

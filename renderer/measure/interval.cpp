@@ -7,8 +7,8 @@
 namespace quartet {
 namespace {
 
-/// The continued fraction of the incomplete beta function by the modified method of Lentz: Numerical
-/// Recipes, third edition, section 6.4.
+/// The continued fraction of the incomplete beta function by the modified method of Lentz:
+/// Numerical Recipes, third edition, section 6.4.
 double beta_fraction(double a, double b, double x) {
   constexpr double tiny = 1e-300;
   double c = 1.0;
@@ -97,8 +97,7 @@ Interval mean_interval(std::span<const double> values, double p) {
   if (values.size() < 2) {
     return {mean, -infinity, infinity};
   }
-  const double half =
-      student_quantile(p, int(values.size()) - 1) * standard_error(values, mean);
+  const double half = student_quantile(p, int(values.size()) - 1) * standard_error(values, mean);
   return {mean, mean - half, mean + half};
 }
 

@@ -55,12 +55,9 @@ void squared_errors(const Film& film, const RadianceImage& truth, std::span<floa
   const float* green = film.mean(1).data();
   const float* blue = film.mean(2).data();
   const glm::vec3* right = truth.pixels().data();
-  const auto term = [](float x, float r) {
-    return (x - r) * (x - r) / (r * r + relative_floor);
-  };
+  const auto term = [](float x, float r) { return (x - r) * (x - r) / (r * r + relative_floor); };
   for (std::size_t i = 0; i < error.size(); ++i) {
-    error[i] = (term(red[i], right[i].x) + term(green[i], right[i].y) +
-                term(blue[i], right[i].z)) *
+    error[i] = (term(red[i], right[i].x) + term(green[i], right[i].y) + term(blue[i], right[i].z)) *
                (1.0f / 3.0f);
   }
 }

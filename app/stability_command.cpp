@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <tbb/task_arena.h>
+#include "app/interrupt.h"
+#include "app/number_check.h"
+#include "app/progress.h"
+#include "app/stability_files.h"
+#include "app/study_commands.h"
+#include "renderer/image/staged_files.h"
+#include "renderer/measure/verdict.h"
+
+namespace quartet {
+namespace {
+
+struct StabilityCommand {
+  std::vector<std::string> cases;
+  std::vector<std::string> estimators;
+  std::string policy = "batch";
+  std::uint32_t seeds = StabilityOptions().seeds;
+  double spp = StabilityOptions().spp;
+  double target = StabilityOptions().target;
+  std::uint32_t truth_spp = StabilityOptions().truth.most_spp;
+  double confidence = 0.99;
+  int threads = 0;
+  std::string out;
+};
+
+StabilityOptions options_of(const StabilityCommand& command) {
+  StabilityOptions options;
+  for (const std::string& id : command.cases) {
+    options.cases.push_back(&find_failure_case(id));
+  }
+  for (const FailureCase& row : failure_cases()) {
+    if (command.cases.empty()) {
+      options.cases.push_back(&row);
+    }
+  }
+  for (const std::string& id : command.estimators) {
+    const Estimator& row = find_estimator(id);
+    if (row.channels == 0 || row.needs_reference) {
+      throw UsageError(fmt::format(
+          "--estimators: '{}' is what the others are compared with; name those to be studied", id));
+    }
+    options.estimators.push_back(row.key);
+  }
+  for (const Estimator& row : estimators()) {
+    if (command.estimators.empty() && row.channels > 0 && !row.needs_reference) {
+      options.estimators.push_back(row.key);
+    }
+  }
+  options.allocation = find_allocation(command.policy).key;
+  if (options.allocation == AllocationId::vote) {
+    throw UsageError(
+        "--policy: 'vote' never stops sampling, so that no pixel is ever done; choose batch, "
+        "converge or two-level");
+  }
+  options.seeds = command.seeds;
+  options.spp = command.spp;
+  options.target = command.target;
+  options.truth.most_spp = command.truth_spp;
+  options.truth.noise = command.target / 20.0;
+  return options;
+}
+
+/// For each case the estimator that fails worst, and how.
+void print_summary(const StabilityOptions& options, const StabilitySummary& summary) {
+  for (const FailureCase* failure : options.cases) {
+    const Cell* worst = nullptr;
+    for (const Cell& cell : summary.cells) {
+      if (cell.failure == failure && (!worst || &verdict(cell) < &verdict(*worst))) {
+        worst = &cell;
+      }
+    }
+    fmt::print("{:<17} {:<16} {:<10} {:<19} {}\n", failure->id, estimator(worst->estimator).id,
+               worst->tuning == Tuning::usual ? "default" : "budget", verdict(*worst).label,
+               verdict(*worst).number(*worst));
+  }
+  const double level = summary.confidence.each();
+  const auto rejected = [&](BiasTest Cell::*picture, BiasTest Cell::*region) {
+    std::size_t count = 0;
+    for (const Cell& cell : summary.cells) {
+      count += ((cell.*picture).p < level ? 1 : 0) + ((cell.*region).p < level ? 1 : 0);
+    }
+    return count;
+  };
+  fmt::print(
+      "bias, of {:.0f} tests at a false-alarm rate of {:g} together: {} in mode reuse, {} in mode "
+      "unbiased\n",
+      summary.confidence.tests, summary.confidence.family, rejected(&Cell::picture, &Cell::region),
+      rejected(&Cell::unbiased_picture, &Cell::unbiased_region));
+}
+
+void run_stability_command(const StabilityCommand& command, const Program& program) {
+  const StabilityOptions options = options_of(command);
+  StagedFiles files(command.out);
+  std::vector<CaseResult> results;
+  {
+    const Interrupt interrupt;
+    Progress progress("stability");
+    tbb::task_arena arena(command.threads > 0 ? command.threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+      results = run_stability(
+          options, [&](double done, std::string_view what) { progress.update(done, what); },
+          interrupt.token());
+    });
+    if (results.empty()) {
+      throw Interrupted();
+    }
+  }
+  const StabilitySummary summary = summarize(results, 1.0 - command.confidence);
+  write_stability_files(files, options, results, summary, program.command_line);
+  files.commit();
+  print_summary(options, summary);
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, const Program& program) {
+  CLI::App* command = app.add_subcommand(
+      "stability", "How each estimator fails: every one on every failure case over many seeds");
+  const auto options = std::make_shared<StabilityCommand>();
+  command
+      ->add_option("--cases,--scenes", options->cases,
+                   "Failure cases, separated by commas; all if not given, see quartet list")
+      ->delimiter(',');
+  command
+      ->add_option("--estimators", options->estimators,
+                   "Separated by commas; all if not given, see quartet list")
+      ->delimiter(',');
+  command->add_option("--policy", options->policy, "batch, converge or two-level: one that ends")
+      ->capture_default_str();
+  command->add_option("--seeds", options->seeds, "Independent runs of each")
+      ->check(CLI::Range(2u, 100'000u))
+      ->capture_default_str();
+  command
+      ->add_option("--spp", options->spp,
+                   "The common budget, mean samples per pixel; a pixel may have 8 times as many")
+      ->check(number_between(9.0, 8000.0))
+      ->capture_default_str();
+  command
+      ->add_option("--target", options->target,
+                   "A pixel is wrong above this squared relative error, (x - r)^2 / (r^2 + 0.01)")
+      ->check(number_above_zero())
+      ->capture_default_str();
+  command
+      ->add_option("--truth-spp", options->truth_spp,
+                   "At most so many samples per pixel for what is compared with")
+      ->check(CLI::Range(512u, 1u << 24))
+      ->capture_default_str();
+  command
+      ->add_option("--confidence", options->confidence, "Of all intervals together, such as 0.99")
+      ->check(number_between(0.5, 0.999999))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "0: one a processor")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
+  command->footer(
+      "Writes matrix.png, matrix.pdf, stability.csv (one row a number, with its interval) and "
+      "trials.csv (one row a number and seed).\n"
+      "Examples:\n"
+      "  quartet stability --out stability\n"
+      "  quartet stability --cases rare-light,two-valued --estimators contrast,chi2 --seeds 32 "
+      "--out stability");
+  command->callback([options, &program] { run_stability_command(*options, program); });
+}
+
+}  // namespace quartet

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "renderer/adaptive/lab.h"
+
+namespace quartet {
+
+/// Independent runs of one policy in one mode, compared with uniform sampling of the same random
+/// numbers and the same mean number of samples, which has no bias.
+struct BiasRuns {
+  SamplingPolicy policy;
+  std::vector<double> mean_spp;  ///< one a seed; the pilot's samples included
+  std::vector<double> seconds;   ///< as if alone
+  std::vector<double> energy;    ///< mean luminance over that of uniform sampling, less 1
+  RadianceImage mean;            ///< over the seeds
+  RadianceImage uniform;         ///< the same of uniform sampling
+  ScalarImage difference;        ///< luminance of mean less that of uniform
+  ScalarImage standard_error;    ///< of `difference`, from its spread over the seeds
+  double noise = 0.0;  ///< variance of a picture over the seeds, mean over pixels and channels
+};
+
+/// What it takes in seconds to bring the noise of mode unbiased down to that of reuse, over what
+/// reuse took: both fall as 1/samples.
+double price_of_unbiasedness(const BiasRuns& reuse, const BiasRuns& unbiased);
+
+/// Runs each policy in both modes, `frames` frames with each of the seeds settings.seed,
+/// settings.seed + 1, …, at least 2; results are reuse, unbiased, reuse, … in the order of the
+/// policies. `progress` gets the share that is done. Empty if `stop` ended it early.
+std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
+                                   const RenderSettings& settings,
+                                   std::span<const SamplingPolicy> policies, std::uint32_t frames,
+                                   std::uint32_t seeds, const LabOptions& options,
+                                   const std::function<void(double)>& progress,
+                                   std::stop_token stop = {});
+
+}  // namespace quartet

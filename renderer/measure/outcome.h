@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "renderer/adaptive/lane.h"
+#include "renderer/measure/audit.h"
+#include "renderer/measure/failure_case.h"
+#include "renderer/measure/truth.h"
+
+namespace quartet {
+
+/// What became of each pixel of a lane, by its errors, thresholds and maximum.
+std::vector<PixelState> pixel_states(const Lane& lane);
+
+/// What is measured of one lane that has run to its end, against the truth. Shares are of pixels
+/// unless said otherwise; `region` is where the failure lives. A pixel is wrong if its squared
+/// relative error is above the common target.
+struct Outcome {
+  double mean_spp = 0.0;         ///< the pilot's samples included
+  double seconds = 0.0;          ///< as if alone
+  double relmse = 0.0;           ///< mean squared relative error
+  double worst = 0.0;            ///< the same of the worst 0.1 % of pixels
+  double fireflies = 0.0;        ///< share of pixels more than 5 × (truth + 0.1) too bright
+  double energy = 0.0;           ///< mean luminance of the picture over the true one, less 1
+  double region_energy = 0.0;    ///< the same of the region
+  double done = 0.0;             ///< share of the region that the criterion is done with
+  double missed = 0.0;           ///< share of those done that are wrong nevertheless
+  double never_done = 0.0;       ///< share of the region that is at the maximum though not wrong
+  double never_done_cost = 0.0;  ///< share of all samples that those pixels took
+  double wasted =
+      0.0;  ///< share of the samples after the first frame that went to pixels not wrong
+  double off_oracle = 0.0;  ///< share of the samples that an oracle would have put elsewhere
+  double region_spp = 0.0;  ///< mean samples of the region's pixels
+  double rejected = 0.0;    ///< share of the samples
+  Audit::Finding audit;     ///< over the region
+};
+
+/// Follows a lane from frame to frame.
+class Observation {
+ public:
+  Observation(const Truth& truth, const PixelRegion& region, double target);
+
+  /// Before a lane takes its next frame.
+  void before_frame(const Lane& lane);
+  /// `oracle` is samples per pixel of a lane that knows the truth.
+  Outcome outcome(const Lane& lane, std::span<const std::uint32_t> oracle, const Audit& audit);
+
+ private:
+  const Truth& truth_;
+  PixelRegion region_;
+  double target_;
+  std::vector<float> errors_;
+  double spent_ = 0.0;   // samples after the first frame
+  double wasted_ = 0.0;  // of those
+};
+
+/// One row of the table of numbers in an outcome.
+struct OutcomeColumn {
+  std::string_view id;    ///< in files
+  std::string_view unit;  ///< empty for shares and ratios
+  double Outcome::*value;
+};
+std::span<const OutcomeColumn> outcome_columns();
+
+}  // namespace quartet
