@@ -165,7 +165,7 @@ constexpr std::array table{
     VerdictRow{
         "biased",
         "biased",
-        "The region's mean is off by more than 2 %, with certainty: by how much.",
+        "The region's mean is off by more than 2 % over its whole interval: by how much.",
         {178, 24, 43},
         [](const Cell& cell) { return cell.region.off.high < -0.02 || cell.region.off.low > 0.02; },
         [](const Cell& cell) {
@@ -190,7 +190,7 @@ constexpr std::array table{
                "wasteful",
                "More than half of the samples that it chose to take went to pixels not wrong: what "
                "share.",
-               {222, 171, 52},
+               {186, 135, 22},
                [](const Cell& cell) { return cell.value("wasted").low > 0.5; },
                [](const Cell& cell) { return percent(cell.value("wasted").mean); }},
     VerdictRow{
