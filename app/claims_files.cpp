@@ -127,7 +127,7 @@ void add_totals(const std::vector<Quantity>& all, std::string& text) {
 }
 
 std::string check_text(const ClaimCheck& check) {
-  return fmt::format("{:<66} {:>8.3f} [{:.3f}, {:.3f}]  {}", check.text, check.value.mean,
+  return fmt::format("{:<70} {:>7.3f} [{:.3f}, {:.3f}]  {}", check.text, check.value.mean,
                      check.value.low, check.value.high, verdict_text(check.verdict));
 }
 

@@ -134,6 +134,7 @@ void paint_below_lines(cairo_t* cairo, const PlacedChart& placed) {
     cairo_new_path(cairo);
     // One path, filled where it winds at all: pieces that overlap do not darken each other.
     for (std::size_t i = 0; i + 1 < band.lower.size(); ++i) {
+      cairo_new_sub_path(cairo);
       for (const glm::dvec2& p :
            {band.lower[i], band.lower[i + 1], band.upper[i + 1], band.upper[i]}) {
         cairo_line_to(cairo, placed.x(p.x), placed.y(p.y));

@@ -169,6 +169,29 @@ TEST(ChartPng, EveryKindOfDataIsThereWhereItShouldBe) {
   }
 }
 
+TEST(ChartPng, ABandIsBetweenItsCurvesAndNowhereElse) {
+  const TempFolder folder;
+  ChartFigure figure;
+  Chart chart;
+  chart.x = linear_axis(0, 4, "x", 3);
+  chart.y = linear_axis(0, 10, "y", 3);
+  // Bent upwards: what joins pieces with the first one would fill above it.
+  chart.bands = {{"", red, {{0, 9}, {1, 1}, {2, 1}, {4, 8}}, {{0, 10}, {1, 2}, {2, 2}, {4, 9}}}};
+  figure.charts = {chart};
+  const DisplayImage page = painted(figure, folder);
+  const ChartLayout layout = lay_out(figure);
+  const PlacedChart& placed = layout.charts[0];
+  const auto color_at = [&](double x, double y) {
+    return page.at(int(placed.x(x)), int(placed.y(y)));
+  };
+  for (const double x : {0.5, 1.5, 3.0}) {
+    const double low = x < 1 ? 9 - 8 * x : x < 2 ? 1 : 1 + 3.5 * (x - 2);
+    EXPECT_EQ(color_at(x, low + 0.5), red) << x;
+    EXPECT_NE(color_at(x, low + 1.3), red) << x;
+    EXPECT_NE(color_at(x, low - 0.3), red) << x;
+  }
+}
+
 TEST(ChartPng, DataStayInsideTheAxes) {
   const TempFolder folder;
   ChartFigure figure;
