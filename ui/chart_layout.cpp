@@ -145,8 +145,9 @@ class Builder {
     const int columns = std::max(1, int(page_width_ / column));
     const double top = y_;
     for (std::size_t i = 0; i < entries.size(); ++i) {
+      const int row = int(i) / columns;
       const double x = kMargin + double(int(i) % columns) * column;
-      const double y = top + double(int(i) / columns) * 1.5 * kLine;
+      const double y = top + double(row) * 1.5 * kLine;
       layout_.legend.push_back({entries[i].second, {x, y, kSampleWidth, kLineHeight * kLine}});
       const auto text = measure_.wrap(entries[i].first, line_style(), column - lead, 1);
       put(text.at(0), line_style(), x + lead, y);

@@ -123,7 +123,7 @@ Claim checkerboard(const ClaimData& data) {
        {std::pair{RegionId::bright_borders, RegionId::bright_squares},
         {RegionId::dark_borders, RegionId::dark_squares}}) {
     judge.above(brighter, fmt::format("contrast: {} / {}", region(border).id, region(square).id),
-                [border, square](const ClaimSeed& seed) {
+                [border = border, square = square](const ClaimSeed& seed) {
                   return spp(seed, contrast, border) / spp(seed, contrast, square);
                 });
   }

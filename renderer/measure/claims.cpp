@@ -252,6 +252,7 @@ std::optional<ClaimData> measure_claims(
 Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value) {
   constexpr double p = 0.05;
   std::vector<double> values;
+  values.reserve(data.seeds.size());
   for (const ClaimSeed& seed : data.seeds) {
     values.push_back(value(seed));
   }

@@ -121,6 +121,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
 template <class Runs, class Number>
 double median_of(const Runs& runs, const Number& number) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const auto& run : runs) {
     values.push_back(number(run));
   }
