@@ -120,6 +120,7 @@ std::vector<Entry> varied_entries(const Case& common, Variation variation) {
 
 std::vector<SamplingPolicy> policies_of(const std::vector<Entry>& entries) {
   std::vector<SamplingPolicy> policies;
+  policies.reserve(entries.size());
   for (const Entry& entry : entries) {
     policies.push_back(entry.policy);
   }
