@@ -61,7 +61,7 @@ void run_figure(const FigureOptions& options, const Program& program) {
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
   write_lab_files(files, snapshot, view, program.command_line,
-                  RunCost{run.lab.threads, &lab.store()}, reference.get());
+                  RunCost{run.lab.threads, &lab.store(), lab.pilot_store()}, reference.get());
   files.commit();
   print_table(snapshot, options.out);
   report_rejected(snapshot, options.run);

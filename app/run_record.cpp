@@ -83,6 +83,14 @@ ordered_json number_json(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
+ordered_json store_json(const SampleStore& store) {
+  return {{"samples_traced", store.traced()},
+          {"samples_stored", store.stored()},
+          {"bytes", store.bytes()},
+          {"seconds", store.seconds()},
+          {"partial", store.partial()}};
+}
+
 ordered_json reference_json(const Reference& reference) {
   ordered_json json;
   json["file"] = reference.path.string();
@@ -130,13 +138,11 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
   json["warnings"] = scene.warnings;
   json["settings"] = settings_json(snapshot.settings);
   if (cost) {
-    const SampleStore& store = *cost->store;
     json["threads"] = cost->threads;
-    json["store"] = {{"samples_traced", store.traced()},
-                     {"samples_stored", store.stored()},
-                     {"bytes", store.bytes()},
-                     {"seconds", store.seconds()},
-                     {"partial", store.partial()}};
+    json["store"] = store_json(*cost->store);
+    if (cost->pilot_store != nullptr) {
+      json["pilot_store"] = store_json(*cost->pilot_store);
+    }
   }
   if (reference != nullptr) {
     json["reference"] = reference_json(*reference);

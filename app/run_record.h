@@ -20,6 +20,7 @@ class SampleStore;
 struct RunCost {
   int threads = 0;
   const SampleStore* store = nullptr;
+  const SampleStore* pilot_store = nullptr;  ///< null if no lane had a pilot run
 };
 
 /// Text attributes for the header of a lane's EXR.

@@ -70,6 +70,7 @@ TEST_F(ModeOption, EachEstimatorInEachModeIsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(csv.front().find("seconds"), std::string::npos);
   const auto json = nlohmann::json::parse(bytes_of(path("1/panels.json")));
   ASSERT_EQ(json.at("lanes").size(), 2 * estimators().size());
+  EXPECT_GT(json.at("pilot_store").at("samples_traced").get<int>(), 0);
   for (const std::string threads : {"2", "8"}) {
     figure_of_all(threads, threads);
     EXPECT_EQ(without_seconds(bytes_of(path(fmt::format("{}/panels.csv", threads)))), csv);
