@@ -1,5 +1,7 @@
 #include "renderer/adaptive/lab_worker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -13,7 +15,6 @@ constexpr auto snapshot_interval = milliseconds(33);
 // While a replay has not caught up with what is shown, its frames would only flicker: they are
 // shown when there is nothing better for this long.
 constexpr auto replay_interval = milliseconds(250);
-constexpr auto status_interval = milliseconds(100);
 
 bool same_store(const LabRequest& a, const LabRequest& b) {
   return a.scene == b.scene && a.settings == b.settings && a.memory == b.memory &&
@@ -27,20 +28,29 @@ void check(const LabRequest& request) {
   if (request.policies.empty()) {
     throw std::invalid_argument("no lane to render");
   }
-  if (request.settings.width < 1 || request.settings.height < 1) {
+  const RenderSettings& settings = request.settings;
+  if (settings.width < 1 || settings.height < 1) {
     throw std::invalid_argument("a picture needs at least one pixel");
+  }
+  if (const auto& reference = request.reference;
+      reference &&
+      (reference->width() != settings.width || reference->height() != settings.height)) {
+    throw std::invalid_argument(
+        fmt::format("the reference has {} × {} pixels, the pictures {} × {}", reference->width(),
+                    reference->height(), settings.width, settings.height));
   }
 }
 
 }  // namespace
 
 LabWorker::LabWorker(Mailbox& mailbox, std::function<void()> notify)
-    : mailbox_(mailbox), notify_(std::move(notify)) {
+    : mailbox_(mailbox), notify_(std::move(notify)), board_(mailbox) {
 }
 
 void LabWorker::run() {
   thread_ = std::this_thread::get_id();
   while (std::unique_ptr<Mailbox::Numbered> newest = mailbox_.wait_and_take()) {
+    mailbox_.set_working(true);
     while (newest) {
       try {
         begin(std::move(newest));
@@ -52,6 +62,7 @@ void LabWorker::run() {
         newest = mailbox_.take();
       }
     }
+    mailbox_.set_working(false);
   }
 }
 
@@ -63,21 +74,31 @@ void LabWorker::begin(std::unique_ptr<Mailbox::Numbered> newest) {
     answered_ = false;
   }
   patience_ends_ = now + (now - unanswered_since_);
-  if (status_.activity == Activity::idle) {
-    meter_.restart(now);
+  if (board_.idle()) {
+    board_.meter.restart(now);
   }
   complete_ = false;
   check(newest->request);
   const bool keep = lab_ && same_store(current_->request, newest->request);
   current_ = std::move(newest);
-  status_.error.clear();
-  status_.frame_target = current_->request.frame;
-  status_.memory_budget = current_->request.memory;
+  board_.status.error.clear();
+  board_.status.frame_target = current_->request.frame;
+  board_.status.memory_budget = current_->request.memory;
   if (keep) {
     change_lab();
   } else {
     make_lab();
   }
+}
+
+/// Of the lanes that were asked for and, if there is something to compare them with, of a last one
+/// of uniform sampling.
+std::vector<SamplingPolicy> LabWorker::policies() const {
+  std::vector<SamplingPolicy> all = current_->request.policies;
+  if (current_->request.reference) {
+    all.push_back(default_policy(EstimatorId::uniform));
+  }
+  return all;
 }
 
 void LabWorker::make_lab() {
@@ -86,18 +107,20 @@ void LabWorker::make_lab() {
   shown_.reset();
   pool_->clear();
   replaying_ = false;
-  status_.activity = Activity::tracing;
+  board_.status.activity = Activity::tracing;
   LabOptions options;
   options.threads = request.threads;
   options.memory = request.memory;
   options.statistics.variance = request.variance;
   options.reference = request.reference;
   options.pilot_source = watched(pilot_source(request.scene, request.settings));
-  lab_ = std::make_unique<Lab>(watched(sample_source(request.scene, request.settings)),
-                               request.settings.width, request.settings.height, request.policies,
-                               options);
+  lab_ =
+      std::make_unique<Lab>(watched(sample_source(request.scene, request.settings)),
+                            request.settings.width, request.settings.height, policies(), options);
+  errors_.measure(request.reference, request.metric);
+  errors_.rewind(lab_->lanes());
   owes_first_picture_ = request.frame > 0;
-  describe_lab();
+  board_.describe(*lab_);
   publish_status();
 }
 
@@ -109,12 +132,20 @@ void LabWorker::change_lab() {
   }
   FilmStatistics statistics;
   statistics.variance = request.variance;
-  lab_->set_lanes(request.policies, statistics, request.reference);
+  lab_->set_lanes(policies(), statistics, request.reference);
+  errors_.rewind(lab_->lanes());
   if (is_answered_by_shown()) {
     publish_shown_again();
     return;
   }
   lab_->rewind_past(request.frame);
+  if (errors_.reference() != request.reference || errors_.metric() != request.metric) {
+    errors_.measure(request.reference, request.metric);
+    if (request.reference) {
+      lab_->rewind_past(0);  // the frames of before are to be measured too
+    }
+  }
+  errors_.rewind(lab_->lanes());
   replays_to_ = std::min(reached, request.frame);
   replaying_ = lab_->frame() < replays_to_;
   replay_start_ = Clock::now();
@@ -131,7 +162,7 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
       return mailbox_.take();
     }
     if (lab_->frame() < current_->request.frame) {
-      status_.activity = replaying_ ? Activity::replaying : Activity::tracing;
+      board_.status.activity = replaying_ ? Activity::replaying : Activity::tracing;
       stop_ = std::stop_source();
       if (tracing_gives_way()) {
         stop_.request_stop();  // what is stored is replayed nevertheless
@@ -139,11 +170,13 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
       if (!lab_->run_frame(stop_.get_token())) {
         return mailbox_.take();
       }
-      describe_lab();
+      errors_.update(lab_->lanes());
+      board_.describe(*lab_);
     }
     if (replaying_ && lab_->frame() >= replays_to_) {
       replaying_ = false;
-      status_.replay_seconds = std::chrono::duration<double>(Clock::now() - replay_start_).count();
+      board_.status.replay_seconds =
+          std::chrono::duration<double>(Clock::now() - replay_start_).count();
     }
     if (snapshot_is_due()) {
       publish_lanes();
@@ -155,8 +188,8 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
 }
 
 void LabWorker::fail(const char* reason) {
-  status_ = {};
-  status_.error = reason;
+  board_.status = {};
+  board_.status.error = reason;
   lab_.reset();
   shown_.reset();
   current_.reset();
@@ -198,9 +231,9 @@ SampleSource LabWorker::watched(SampleSource trace) {
       stop_.request_stop();
     }
     trace(x, y, first, radiance);
-    meter_.add(radiance.size());
+    board_.meter.add(radiance.size());
     if (std::this_thread::get_id() == thread_) {
-      status_.activity = Activity::tracing;
+      board_.status.activity = Activity::tracing;
       report_progress();
     }
   };
@@ -214,8 +247,12 @@ bool LabWorker::lanes_are_together() const {
 /// Whether a request without an end has come to one, because no lane wants another sample.
 bool LabWorker::has_run_out() const {
   return current_->request.frame == LabRequest::no_end &&
-         std::ranges::all_of(lab_->lanes(),
+         std::ranges::all_of(asked_lanes(),
                              [](const Lane& lane) { return lane.plan().total == 0; });
+}
+
+std::span<const Lane> LabWorker::asked_lanes() const {
+  return lab_->lanes().first(current_->request.policies.size());
 }
 
 bool LabWorker::snapshot_is_due() const {
@@ -233,13 +270,21 @@ bool LabWorker::snapshot_is_due() const {
 bool LabWorker::is_answered_by_shown() const {
   const LabRequest& request = current_->request;
   return shown_ && shown_->frame == request.frame && shown_variance_ == request.variance &&
-         shown_reference_ == request.reference &&
+         shown_->reference == request.reference &&
+         (!request.reference || shown_->metric == request.metric) &&
          std::ranges::equal(shown_->lanes, request.policies, {}, &LaneSnapshot::policy);
 }
 
 void LabWorker::publish_lanes() {
   std::unique_ptr<Snapshot> snapshot = pool_->take();
-  copy_lanes(*lab_, *snapshot);
+  const bool measured = errors_.reference() != nullptr;
+  copy_lanes(*lab_, *snapshot, measured);
+  for (std::size_t i = 0; measured && i < lab_->lanes().size(); ++i) {
+    LaneSnapshot& lane = i < snapshot->lanes.size() ? snapshot->lanes[i] : *snapshot->baseline;
+    lane.true_errors.assign(errors_.of(i).begin(), errors_.of(i).end());
+  }
+  snapshot->reference = errors_.reference();
+  snapshot->metric = errors_.metric();
   snapshot->scene = current_->request.scene;
   snapshot->settings = current_->request.settings;
   snapshot->reference = current_->request.reference;
@@ -258,37 +303,21 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   snapshot->request = current_->number;
   shown_ = pool_->publish(std::move(snapshot));
   shown_variance_ = current_->request.variance;
-  shown_reference_ = current_->request.reference;
   owes_first_picture_ = false;
   answered_ = true;
   complete_ = shown_->frame == current_->request.frame || has_run_out();
   published_at_ = Clock::now();
   if (complete_ && mailbox_.waiting() == Mailbox::Waiting::nothing) {
-    status_.activity = Activity::idle;
+    board_.status.activity = Activity::idle;
   }
   // The status goes ahead, so that whoever sees the snapshot sees no older status.
-  make_status_current();
+  board_.publish();
   mailbox_.publish(shown_);
   notify();
 }
 
-void LabWorker::describe_lab() {
-  status_.frame = lab_->frame();
-  status_.stored_samples = lab_->stored_samples();
-  status_.stored_bytes = lab_->stored_bytes();
-  status_.partial = lab_->partial();
-}
-
-void LabWorker::make_status_current() {
-  const Clock::time_point now = Clock::now();
-  const bool idle = status_.activity == Activity::idle;
-  status_.samples_per_second = idle ? 0.0 : meter_.per_second(now);
-  status_at_ = now;
-  mailbox_.publish(std::make_shared<const SessionStatus>(status_));
-}
-
 void LabWorker::publish_status() {
-  make_status_current();
+  board_.publish();
   notify();
 }
 
@@ -299,7 +328,7 @@ void LabWorker::notify() const {
 }
 
 void LabWorker::report_progress() {
-  if (Clock::now() - status_at_ >= status_interval) {
+  if (board_.is_due()) {
     publish_status();
   }
 }

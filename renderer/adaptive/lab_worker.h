@@ -9,8 +9,9 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/adaptive/mailbox.h"
-#include "renderer/adaptive/sample_meter.h"
 #include "renderer/adaptive/snapshot_pool.h"
+#include "renderer/adaptive/status_board.h"
+#include "renderer/measure/error_history.h"
 
 namespace quartet {
 
@@ -31,6 +32,7 @@ class LabWorker {
   struct Closed {};
 
   void begin(std::unique_ptr<Mailbox::Numbered> newest);
+  std::vector<SamplingPolicy> policies() const;
   void make_lab();
   void change_lab();
   std::unique_ptr<Mailbox::Numbered> answer();
@@ -44,11 +46,10 @@ class LabWorker {
   bool has_run_out() const;
   bool snapshot_is_due() const;
   bool is_answered_by_shown() const;
+  std::span<const Lane> asked_lanes() const;
   void publish_lanes();
   void publish_shown_again();
   void publish(std::unique_ptr<Snapshot> snapshot);
-  void describe_lab();
-  void make_status_current();
   void publish_status();
   void notify() const;
   void report_progress();
@@ -57,16 +58,16 @@ class LabWorker {
   std::function<void()> notify_;
   std::thread::id thread_;
   std::shared_ptr<SnapshotPool> pool_ = std::make_shared<SnapshotPool>();
-  SampleMeter meter_;
+  StatusBoard board_;
 
   std::unique_ptr<Mailbox::Numbered> current_;
   std::unique_ptr<Lab> lab_;  // of the current request
+  ErrorHistory errors_;       // of its lanes
   std::stop_source stop_;     // of the frame under way
   bool owes_first_picture_ = false;
 
   std::shared_ptr<const Snapshot> shown_;  // the last one published of this lab
   bool shown_variance_ = false;
-  std::shared_ptr<const RadianceImage> shown_reference_;
   std::uint64_t published_ = 0;
   Clock::time_point published_at_;
 
@@ -78,9 +79,6 @@ class LabWorker {
   std::uint32_t replays_to_ = 0;  // the frame at which a replay has caught up
   bool replaying_ = false;
   Clock::time_point replay_start_;
-
-  SessionStatus status_;
-  Clock::time_point status_at_;
 };
 
 }  // namespace quartet

@@ -27,6 +27,9 @@ class Mailbox {
   std::shared_ptr<const Snapshot> latest() const;
   /// Null before the first one.
   std::shared_ptr<const SessionStatus> status() const;
+  bool busy() const {
+    return waiting() != Waiting::nothing || working_.load(std::memory_order_relaxed);
+  }
   void close();
 
   // For the session's thread.
@@ -38,6 +41,8 @@ class Mailbox {
   std::unique_ptr<Numbered> wait_and_take();
   void publish(std::shared_ptr<const Snapshot> snapshot);
   void publish(std::shared_ptr<const SessionStatus> status);
+  /// Whether there is work under way: what busy() says beside a request that waits.
+  void set_working(bool working) { working_.store(working, std::memory_order_relaxed); }
 
  private:
   /// Which store a request needs. Only compared: the scene may be gone.
@@ -57,6 +62,7 @@ class Mailbox {
   std::shared_ptr<const Snapshot> latest_;
   std::shared_ptr<const SessionStatus> status_;
   std::atomic<Waiting> waiting_ = Waiting::nothing;
+  std::atomic<bool> working_ = false;
   std::atomic<bool> closed_ = false;
 };
 

@@ -31,4 +31,8 @@ SessionStatus Session::status() const {
   return status ? *status : SessionStatus();
 }
 
+bool Session::busy() const {
+  return mailbox_->busy();
+}
+
 }  // namespace quartet

@@ -9,25 +9,29 @@
 #include <vector>
 
 #include "renderer/adaptive/snapshot.h"
+#include "renderer/measure/metrics.h"
 
 namespace quartet {
 
 /// Everything that a window asks of the renderer. The newest request wins; what it changes decides
 /// what is redone. Scene, settings, memory or threads: a new store. A lane's policy: that lane
-/// replays from frame 1. Reference: the lanes that look at it replay. Variance: all lanes replay. A
-/// lower frame: all lanes replay up to it. A higher one: they go on.
+/// replays from frame 1. Variance, reference or metric: all lanes replay. A lower frame: all lanes
+/// replay up to it. A higher one: they go on.
 struct LabRequest {
   static constexpr std::uint32_t no_end = UINT32_MAX;
 
   std::shared_ptr<const TraceScene> scene;
   RenderSettings settings;
-  std::vector<SamplingPolicy> policies;       ///< one a lane; at least one
-  std::uint32_t frame = 15;                   ///< where the lanes shall stand, from 1; or no_end
-  bool variance = false;                      ///< snapshots carry the variance of the mean
+  std::vector<SamplingPolicy> policies;  ///< one a lane; at least one
+  std::uint32_t frame = 15;              ///< where the lanes shall stand, from 1; or no_end
+  bool variance = false;                 ///< snapshots carry the variance of the mean
+  /// The truth, of the size of the pictures; null if there is none, and then no estimator may need
+  /// it. With one, snapshots carry each lane's error against it, frame by frame, and a lane of
+  /// uniform sampling to compare with.
+  std::shared_ptr<const RadianceImage> reference;
+  MetricId metric = MetricId::relmse;         ///< of these errors
   std::size_t memory = std::size_t(2) << 30;  ///< of the sample store, bytes
   int threads = 0;                            ///< 0: one a processor
-  /// The truth, for estimators that need it; as large as the picture.
-  std::shared_ptr<const RadianceImage> reference;
 };
 
 /// What the renderer is doing.
@@ -74,6 +78,8 @@ class Session {
   /// Null before the first one.
   std::shared_ptr<const Snapshot> latest() const;
   SessionStatus status() const;
+  /// Whether it has anything to do. Cheap enough to be asked between two samples.
+  bool busy() const;
 
  private:
   std::unique_ptr<Mailbox> mailbox_;

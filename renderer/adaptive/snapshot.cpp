@@ -43,6 +43,7 @@ void copy_lane(const Lane& lane, LaneSnapshot& snapshot) {
   copy(lane.error(), snapshot.error);
   copy_variance(film, snapshot.variance);
   copy(lane.history(), snapshot.history);
+  snapshot.true_errors.clear();
   snapshot.plan = lane.plan();
   fill_histogram(lane.taken(), snapshot.sample_histogram);
   snapshot.error_histograms.resize(lane.error().size() / film.size());
@@ -54,14 +55,25 @@ void copy_lane(const Lane& lane, LaneSnapshot& snapshot) {
 
 }  // namespace
 
-void copy_lanes(const Lab& lab, Snapshot& snapshot) {
+void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline) {
   snapshot.width = lab.width();
   snapshot.height = lab.height();
   snapshot.frame = lab.frame();
-  snapshot.lanes.resize(lab.lanes().size());
-  for (std::size_t i = 0; i < lab.lanes().size(); ++i) {
-    assert(lab.lanes()[i].frame() == snapshot.frame);
-    copy_lane(lab.lanes()[i], snapshot.lanes[i]);
+  assert(std::ranges::all_of(lab.lanes(),
+                             [&](const Lane& lane) { return lane.frame() == snapshot.frame; }));
+  std::span<const Lane> lanes = lab.lanes();
+  if (last_is_baseline) {
+    if (!snapshot.baseline) {
+      snapshot.baseline.emplace();
+    }
+    copy_lane(lanes.back(), *snapshot.baseline);
+    lanes = lanes.first(lanes.size() - 1);
+  } else {
+    snapshot.baseline.reset();
+  }
+  snapshot.lanes.resize(lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    copy_lane(lanes[i], snapshot.lanes[i]);
   }
 }
 

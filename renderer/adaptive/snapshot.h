@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/adaptive/histogram.h"
 #include "renderer/adaptive/lane.h"
+#include "renderer/measure/metrics.h"
 #include "renderer/trace/integrator.h"
 
 namespace quartet {
@@ -25,6 +27,7 @@ struct LaneSnapshot {
   /// Of the pixel mean: red, green, blue × pixels, in radiance²; empty where the films keep none.
   std::vector<float> variance;
   std::vector<FrameRecord> history;              ///< one a frame; back() is the current one
+  std::vector<double> true_errors;               ///< one a frame; empty without a reference
   Plan plan;                                     ///< of the next frame
   SampleHistogram sample_histogram;              ///< of `taken`
   std::vector<ErrorHistogram> error_histograms;  ///< one a channel of the estimator
@@ -43,12 +46,15 @@ struct Snapshot {
   std::vector<LaneSnapshot> lanes;
   /// What true errors are measured against; null if there is nothing.
   std::shared_ptr<const RadianceImage> reference;
+  MetricId metric = MetricId::relmse;    ///< of true errors
+  std::optional<LaneSnapshot> baseline;  ///< uniform sampling; with a reference only
 
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
 };
 
 /// Overwrites size, frame and lanes with what the lab looks like now, using again what memory they
-/// have. All lanes must be at the same frame.
-void copy_lanes(const Lab& lab, Snapshot& snapshot);
+/// have; of true errors it knows nothing. All lanes must be at the same frame. If
+/// `last_is_baseline`, the last of them is what the others are compared with.
+void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline = false);
 
 }  // namespace quartet

@@ -31,47 +31,10 @@ double percent(std::uint64_t part, std::size_t pixels) {
   return 100.0 * double(part) / double(pixels);
 }
 
-struct DecadeRange {
-  int first = ErrorHistogram::end_exponent;
-  int last = ErrorHistogram::first_exponent;
-
-  void include(double low, double high) {
-    first = std::min(first, std::max(int(std::floor(low)), ErrorHistogram::first_exponent));
-    last = std::max(last, std::min(int(std::ceil(high)), ErrorHistogram::end_exponent));
-  }
-};
-
-/// The powers of ten that hold nearly all errors and every threshold with room to drag it. Whole
-/// ones, so that the axis stands still while a threshold is dragged.
-DecadeRange error_decades(const LaneSnapshot& lane, const Thresholds& thresholds) {
-  std::array<std::uint64_t, ErrorHistogram::bins> pixels{};
-  std::uint64_t total = 0;
-  for (const ErrorHistogram& histogram : lane.error_histograms) {
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      pixels[i] += histogram.pixels[i];
-      total += histogram.pixels[i];
-    }
-  }
-  const auto ignored = std::uint64_t(ignored_share * double(total));
-  DecadeRange range;
-  std::uint64_t so_far = 0;
-  for (int i = 0; i < ErrorHistogram::bins; ++i) {
-    const std::uint64_t here = pixels[std::size_t(i)];
-    so_far += here;
-    if (here > 0 && so_far > ignored) {
-      range.include(std::log10(ErrorHistogram::begin_of(i)) + 1e-6,
-                    std::log10(ErrorHistogram::begin_of(i + 1)) - 1e-6);
-    }
-  }
-  range.first = std::max(range.first, range.last - most_decades);
-  for (std::size_t c = 0; c < lane.error_histograms.size(); ++c) {
-    if (thresholds[c] > 0.0f) {
-      constexpr double room = 0.3;
-      const double at = std::log10(double(thresholds[c]));
-      range.include(at - room, at + room);
-    }
-  }
-  return range.first < range.last ? range : DecadeRange{-1, 0};
+/// The whole powers of ten around [10^low, 10^high], as far as histograms reach.
+DecadeRange decades_around(double low, double high) {
+  return {std::max(int(std::floor(low)), ErrorHistogram::first_exponent),
+          std::min(int(std::ceil(high)), ErrorHistogram::end_exponent)};
 }
 
 /// The top of each bin is two points: where it begins and where it ends.
@@ -113,6 +76,37 @@ std::string error_note(const LaneSnapshot& lane, std::size_t pixels) {
 
 }  // namespace
 
+DecadeRange error_decades(const LaneSnapshot& lane, const Thresholds& thresholds) {
+  std::array<std::uint64_t, ErrorHistogram::bins> pixels{};
+  std::uint64_t total = 0;
+  for (const ErrorHistogram& histogram : lane.error_histograms) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      pixels[i] += histogram.pixels[i];
+      total += histogram.pixels[i];
+    }
+  }
+  const auto ignored = std::uint64_t(ignored_share * double(total));
+  DecadeRange range{ErrorHistogram::end_exponent, ErrorHistogram::first_exponent};
+  std::uint64_t so_far = 0;
+  for (int i = 0; i < ErrorHistogram::bins; ++i) {
+    const std::uint64_t here = pixels[std::size_t(i)];
+    so_far += here;
+    if (here > 0 && so_far > ignored) {
+      range = range.with(decades_around(std::log10(ErrorHistogram::begin_of(i)) + 1e-6,
+                                        std::log10(ErrorHistogram::begin_of(i + 1)) - 1e-6));
+    }
+  }
+  range.first = std::max(range.first, range.last - most_decades);
+  for (std::size_t c = 0; c < lane.error_histograms.size(); ++c) {
+    if (thresholds[c] > 0.0f) {
+      constexpr double room = 0.3;
+      const double at = std::log10(double(thresholds[c]));
+      range = range.with(decades_around(at - room, at + room));
+    }
+  }
+  return range.first < range.last ? range : DecadeRange{-1, 0};
+}
+
 Chart sample_chart(const Snapshot& snapshot, std::size_t lane, const ColorScale& scale) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
   const SampleHistogram& histogram = shown.sample_histogram;
@@ -145,7 +139,7 @@ Chart sample_chart(const Snapshot& snapshot, std::size_t lane, const ColorScale&
 }
 
 Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& thresholds,
-                  Rgba8 accent) {
+                  Rgba8 accent, std::optional<DecadeRange> decades) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
   const Estimator& row = estimator(shown.policy.estimator);
   const std::size_t pixels = snapshot.pixels();
@@ -161,8 +155,8 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
                            text_color});
     return chart;
   }
-  const DecadeRange decades = error_decades(shown, thresholds);
-  chart.x = decade_axis(decades.first, decades.last, label);
+  const DecadeRange axis = decades ? *decades : error_decades(shown, thresholds);
+  chart.x = decade_axis(axis.first, axis.last, label);
 
   double highest = 0.0;
   for (std::size_t c = 0; c < shown.error_histograms.size(); ++c) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "renderer/image/pixel_values.h"
+#include "renderer/measure/metrics.h"
 #include "renderer/table.h"
 
 namespace quartet {
@@ -188,6 +189,29 @@ View difference_view(const Snapshot& snapshot, std::size_t lane, const ViewSetti
   return view;
 }
 
+constexpr const char* no_reference = "there is no reference for this view";
+
+/// On a scale that depends on nothing, so that a colour means the same in every lane, at every
+/// frame: from errors that are not seen to as large as the picture itself.
+View true_error_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
+  if (!snapshot.reference) {
+    return blank(snapshot, no_reference);
+  }
+  const ScalarImage map =
+      metric(MetricId::relmse).map(radiance_image(snapshot, lane), *snapshot.reference);
+  return numbers_view(snapshot, map.pixels(),
+                      {{1e-6, 1.0, ColorMapId::viridis, Spacing::logarithmic}, "", ""});
+}
+
+View reference_view(const Snapshot& snapshot, std::size_t, const ViewSettings& settings) {
+  if (!snapshot.reference) {
+    return blank(snapshot, no_reference);
+  }
+  View view;
+  view.image = to_display(*snapshot.reference, settings.exposure, settings.tone_map);
+  return view;
+}
+
 constexpr std::array table{
     ViewRow{ViewKind::image, "image", "Image", "", false, image_view},
     ViewRow{ViewKind::heatmap, "heatmap", "Samples", "samples per pixel", true, heat_view},
@@ -199,6 +223,10 @@ constexpr std::array table{
             rejected_view},
     ViewRow{ViewKind::difference, "difference", "Difference", "luminance minus the other lane's",
             true, difference_view},
+    ViewRow{ViewKind::true_error, "true-error", "True error",
+            "relative squared error against the reference, (x − r)² / (r² + 0.01)", true,
+            true_error_view},
+    ViewRow{ViewKind::reference, "reference", "Reference", "", false, reference_view},
 };
 
 }  // namespace
@@ -238,7 +266,11 @@ ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange rang
 }
 
 RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane) {
-  const auto& mean = snapshot.lanes[lane].mean;
+  return radiance_image(snapshot, snapshot.lanes[lane]);
+}
+
+RadianceImage radiance_image(const Snapshot& snapshot, const LaneSnapshot& lane) {
+  const auto& mean = lane.mean;
   RadianceImage image(snapshot.width, snapshot.height);
   for (std::size_t i = 0; i < image.size(); ++i) {
     image.pixels()[i] = {mean[0][i], mean[1][i], mean[2][i]};

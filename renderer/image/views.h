@@ -29,7 +29,7 @@ struct ViewSettings {
 };
 
 /// What a colour means where colours are not numbers.
-struct LegendEntry {
+struct ColorMeaning {
   Rgba8 color;
   std::string label;
   std::uint64_t pixels = 0;  ///< that have it
@@ -39,11 +39,21 @@ struct LegendEntry {
 struct View {
   DisplayImage image;
   std::optional<ColorBar> bar;
-  std::vector<LegendEntry> legend;
+  std::vector<ColorMeaning> legend;
   std::string note;  ///< why there is nothing to see; else empty
 };
 
-enum class ViewKind { image, heatmap, error, variance, stop_state, rejected, difference };
+enum class ViewKind {
+  image,
+  heatmap,
+  error,
+  variance,
+  stop_state,
+  rejected,
+  difference,
+  true_error,
+  reference
+};
 
 /// One row of the table of views.
 struct ViewRow {
@@ -69,5 +79,6 @@ View draw_view(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
 ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange range);
 
 RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane);
+RadianceImage radiance_image(const Snapshot& snapshot, const LaneSnapshot& lane);
 
 }  // namespace quartet

@@ -9,7 +9,7 @@
 namespace quartet {
 namespace {
 
-constexpr Region everywhere{};
+constexpr PicturePart everywhere{};
 
 constexpr std::array table{
     FailureCase{"black-background",
@@ -121,7 +121,7 @@ const FailureCase& find_failure_case(std::string_view id) {
   return find_row(failure_cases(), id, "failure case");
 }
 
-PixelRegion pixels_of(const Region& region, int width, int height) {
+PixelRegion pixels_of(const PicturePart& region, int width, int height) {
   const auto place = [](double share, int size) {
     return std::clamp(int(std::lround(share * size)), 0, size);
   };

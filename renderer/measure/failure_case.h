@@ -8,7 +8,7 @@
 namespace quartet {
 
 /// A rectangle in shares of the picture, from the top left.
-struct Region {
+struct PicturePart {
   double left = 0.0, top = 0.0, right = 1.0, bottom = 1.0;
 };
 
@@ -19,7 +19,7 @@ struct FailureCase {
   std::string_view scene;  ///< as open_scene takes it
   std::string_view mode;   ///< what goes wrong, in a few words
   std::string_view watch;  ///< what to look at, one sentence
-  Region region;           ///< where it goes wrong
+  PicturePart region;      ///< where it goes wrong
   ViewKind view;           ///< what shows it best beside the picture
   float zoom;              ///< on the middle of the region; 1 shows the whole picture
 };
@@ -33,6 +33,6 @@ struct PixelRegion {
   int left, top, right, bottom;  ///< right and bottom are past the last one
   int pixels() const { return (right - left) * (bottom - top); }
 };
-PixelRegion pixels_of(const Region& region, int width, int height);
+PixelRegion pixels_of(const PicturePart& region, int width, int height);
 
 }  // namespace quartet

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
@@ -52,6 +53,13 @@ ReferenceRender::ReferenceRender(std::array<SampleSource, 2> sources,
 }
 
 void ReferenceRender::add(std::uint32_t spp) {
+  add(spp, nullptr);
+}
+
+bool ReferenceRender::add(std::uint32_t spp, const std::function<bool()>& gives_way) {
+  // A pass that is given up has added to some pixels and not to others.
+  const auto before = gives_way ? sums_.halves : decltype(sums_.halves){};
+  std::atomic<bool> given_up = false;
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   if (sums_.spp + spp > most) {
     throw std::runtime_error(
@@ -64,13 +72,22 @@ void ReferenceRender::add(std::uint32_t spp) {
   const std::size_t count = columns * std::size_t(tiles(sums_.settings.height));
   parallel_for(2 * count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t job = begin; job < end; ++job) {
+      if (given_up || (gives_way && gives_way())) {
+        given_up = true;
+        return;
+      }
       const std::size_t half = job % 2;
       const std::uint64_t first = sums_.samples_of(half);
       add_tile(half, job / 2, std::uint32_t(first), std::uint32_t(after.samples_of(half) - first));
     }
   });
+  if (given_up) {
+    sums_.halves = before;
+    return false;
+  }
   sums_.spp = after.spp;
   sums_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return true;
 }
 
 void ReferenceRender::add_tile(std::size_t half, std::size_t tile, std::uint32_t first,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "renderer/measure/reference_sums.h"
@@ -23,6 +24,9 @@ class ReferenceRender {
 
   /// Adds so many samples a pixel, to each half in turn, on the threads of the current TBB arena.
   void add(std::uint32_t spp);
+  /// The same, unless `gives_way`, which is asked often and on these threads, says that it is to
+  /// end: then the sums are as before, and it returns false.
+  bool add(std::uint32_t spp, const std::function<bool()>& gives_way);
 
   /// Takes up sums in the place of what is here. Throws std::runtime_error with the reason if they
   /// are not of this scene with these settings; `path` is where they come from.

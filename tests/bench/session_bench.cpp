@@ -77,11 +77,15 @@ void calls_while_busy(benchmark::State& state) {
 }
 BENCHMARK(calls_while_busy)->Iterations(2000)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// From the request with other thresholds to the snapshot that answers it, all samples stored.
-void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dragged,
-                      int threads) {
+/// From the request with other thresholds to the snapshot that answers it, all samples stored;
+/// `measured`: with a reference, against which each frame is measured.
+void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dragged, int threads,
+                      bool measured = false) {
   Session session;
   LabRequest request = lab_request(lanes, threads);
+  if (measured) {
+    request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
+  }
   const std::vector<SamplingPolicy> original = request.policies;
   const auto drag_to = [&](int step) {
     for (std::size_t i = 0; i < dragged; ++i) {
@@ -111,6 +115,13 @@ BENCHMARK_CAPTURE(drag_to_snapshot, one_lane_of_four_one_thread, 4, 1, 1)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(drag_to_snapshot, four_lanes_two_threads, 4, 4, 2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+BENCHMARK_CAPTURE(drag_to_snapshot, one_lane_of_four_measured, 4, 1, 2, true)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag_to_snapshot, four_lanes_measured, 4, 4, 2, true)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
@@ -186,7 +197,7 @@ void views_of_a_lane(benchmark::State& state) {
   }
   state.SetLabel(std::string(row.id));
 }
-BENCHMARK(views_of_a_lane)->DenseRange(0, 6)->Unit(benchmark::kMillisecond);
+BENCHMARK(views_of_a_lane)->DenseRange(0, int(views().size()) - 1)->Unit(benchmark::kMillisecond);
 
 void charts_of_a_lane(benchmark::State& state) {
   static const Snapshot snapshot = four_lanes_after(15);

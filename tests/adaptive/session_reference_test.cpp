@@ -1,0 +1,163 @@
+// A session with ground truth: the errors of its lanes, frame by frame, and the lane of uniform
+// sampling that they are compared with.
+
+#include <gtest/gtest.h>
+
+#include "renderer/measure/metrics.h"
+#include "tests/adaptive/session_cases.h"
+
+namespace quartet {
+namespace {
+
+using namespace test;
+
+std::shared_ptr<const RadianceImage> picture_of(float level, int w = width, int h = height) {
+  return std::make_shared<const RadianceImage>(w, h, glm::vec3(level));
+}
+
+/// What a lab without a session says of the errors.
+std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
+  LabOptions options;
+  options.threads = 1;
+  std::vector<SamplingPolicy> policies = request.policies;
+  policies.push_back(default_policy(EstimatorId::uniform));
+  Lab lab(sample_source(request.scene, request.settings), request.settings.width,
+          request.settings.height, policies, options);
+  std::vector<std::vector<double>> errors(policies.size());
+  while (lab.frame() < request.frame) {
+    lab.run_frame();
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      errors[i].push_back(
+          metric(request.metric).compute(lab.lanes()[i].film().image(), *request.reference));
+    }
+  }
+  return errors;
+}
+
+void expect_errors(Session& session, const LabRequest& request) {
+  const auto snapshot = answer(session, request);
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->reference, request.reference);
+  EXPECT_EQ(snapshot->metric, request.metric);
+  const auto errors = headless_errors(request);
+  ASSERT_EQ(snapshot->lanes.size(), request.policies.size());
+  ASSERT_TRUE(snapshot->baseline);
+  for (std::size_t i = 0; i < snapshot->lanes.size(); ++i) {
+    EXPECT_EQ(snapshot->lanes[i].true_errors, errors[i]) << "lane " << i + 1;
+    EXPECT_EQ(snapshot->lanes[i].true_errors.size(), snapshot->lanes[i].history.size());
+  }
+  EXPECT_EQ(snapshot->baseline->true_errors, errors.back());
+  EXPECT_EQ(snapshot->baseline->policy, default_policy(EstimatorId::uniform));
+  EXPECT_EQ(snapshot->baseline->history.back().samples,
+            std::uint64_t(request.frame) * snapshot->pixels());
+  expect_same(*snapshot, headless(request));
+}
+
+TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
+  Session session;
+  LabRequest request = four_lanes();
+  ASSERT_TRUE(answer(session, request));
+  EXPECT_FALSE(session.latest()->baseline);
+  EXPECT_TRUE(session.latest()->lanes[0].true_errors.empty());
+  {
+    SCOPED_TRACE("a reference for frames that have been run");
+    request.reference = picture_of(0.5f);
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("a threshold");
+    request.policies[1].thresholds[0] *= 0.5f;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("another metric");
+    request.metric = MetricId::rmse;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("another reference");
+    request.reference = picture_of(0.25f);
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("a lower frame and a higher one");
+    request.frame = 3;
+    expect_errors(session, request);
+    request.frame = 10;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("lanes");
+    request.policies.pop_back();
+    expect_errors(session, request);
+    request.policies.push_back(default_policy(EstimatorId::chi2));
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("seed");
+    request.settings.seed = 7;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("none");
+    request.reference.reset();
+    expect_as_headless(session, request);
+    EXPECT_FALSE(session.latest()->baseline);
+    EXPECT_FALSE(session.latest()->reference);
+  }
+}
+
+TEST(SessionThreads, ErrorsAreRightAfterManyChangesThatWereNotWaitedFor) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.reference = picture_of(0.5f);
+  const LabRequest first = request;
+  ASSERT_TRUE(answer(session, request));
+  for (int i = 0; i < 60; ++i) {
+    request.policies[std::size_t(i) % 4].thresholds[0] *= i % 2 == 0 ? 0.9f : 1.1f;
+    request.metric = i % 5 == 0 ? MetricId::mse : MetricId::relmse;
+    session.submit(request);
+    std::this_thread::sleep_for(std::chrono::microseconds(300 * (i % 7)));
+    // Back to what is shown already, with lanes that have begun anew.
+    session.submit(first);
+  }
+  expect_errors(session, first);
+  LabRequest further = first;
+  further.frame = frames + 2;
+  expect_errors(session, further);
+}
+
+TEST(SessionThreads, AReferenceOfAnotherSizeIsRefused) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.reference = picture_of(0.5f, width + 1, height);
+  session.submit(request);
+  const auto end = Clock::now() + patience;
+  while (session.status().error.empty() && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(session.status().error, "the reference has 49 × 27 pixels, the pictures 48 × 27");
+  request.reference = picture_of(0.5f);
+  expect_errors(session, request);
+}
+
+TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.frame = LabRequest::no_end;
+  request.reference = picture_of(0.5f);
+  for (SamplingPolicy& policy : request.policies) {
+    policy.allocation.kind = AllocationId::two_level;
+  }
+  session.submit(request);
+  const auto end = Clock::now() + patience;
+  while (Clock::now() < end &&
+         (!session.latest() || session.latest()->frame < 2 || session.busy())) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_FALSE(session.busy());
+  EXPECT_GE(session.latest()->frame, 2u);
+}
+
+}  // namespace
+}  // namespace quartet

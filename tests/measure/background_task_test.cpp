@@ -1,0 +1,80 @@
+#include "renderer/measure/background_task.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <vector>
+
+namespace quartet {
+namespace {
+
+using std::chrono::milliseconds;
+using Task = BackgroundTask<int, int>;
+
+template <class Condition>
+bool wait_for(Condition condition) {
+  // Far beyond what anything takes, even under a sanitizer on a busy machine: a deadlock fails.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) {
+      return false;
+    }
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  return true;
+}
+
+TEST(BackgroundTaskThreads, AnswersWhatItIsAsked) {
+  std::atomic<int> notified = 0;
+  Task task(
+      [](int input, const std::stop_token&, const Task::Publish& publish) {
+        publish(10 * input);
+        publish(100 * input);
+      },
+      [&] { ++notified; });
+  EXPECT_EQ(task.latest()->input, 0u);
+  for (int input = 1; input <= 3; ++input) {
+    const std::uint64_t number = task.submit(input);
+    EXPECT_EQ(number, std::uint64_t(input));
+    ASSERT_TRUE(wait_for(
+        [&] { return task.latest()->input == number && task.latest()->output == 100 * input; }));
+  }
+  ASSERT_TRUE(wait_for([&] { return notified == 6; }));
+}
+
+TEST(BackgroundTaskThreads, TheNewestInputStopsTheOneUnderWayAndIsAnswered) {
+  std::atomic<int> begun = 0;
+  Task task([&](int input, const std::stop_token& stop, const Task::Publish& publish) {
+    ++begun;
+    while (input < 1000 && !stop.stop_requested()) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    if (!stop.stop_requested()) {
+      publish(input);
+    }
+  });
+  task.submit(0);
+  ASSERT_TRUE(wait_for([&] { return begun == 1; }));
+  std::uint64_t last = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    last = task.submit(i);
+  }
+  ASSERT_TRUE(wait_for([&] { return task.latest()->input == last; }));
+  EXPECT_EQ(task.latest()->output, 1000);
+}
+
+TEST(BackgroundTaskThreads, EndsInTheMiddleOfWork) {
+  for (int moment = 0; moment < 20; ++moment) {
+    Task task([&](int, const std::stop_token& stop, const Task::Publish& publish) {
+      for (int i = 0; !stop.stop_requested(); ++i) {
+        publish(i);
+      }
+    });
+    task.submit(moment);
+    std::this_thread::sleep_for(std::chrono::microseconds(200 * moment));
+  }
+}
+
+}  // namespace
+}  // namespace quartet
