@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/image/staged_files.h"
+#include "renderer/measure/metrics.h"
+#include "ui/lab_layout.h"
 
 namespace quartet {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr std::array layout_ids{"columns", "grid", "large"};
 
 template <class Value>
 void read(const ordered_json& json, const char* name, Value& value) {
@@ -34,6 +34,27 @@ void read_slots(const ordered_json& json, LabState& state) {
   }
 }
 
+void read_dock(const ordered_json& json, DockState& dock) {
+  if (json.contains("open")) {
+    dock.open = json.at("open").get<bool>();
+  }
+  read(json, "height", dock.height);
+  dock.height = std::clamp(dock.height, 0.0f, 4096.0f);
+  if (json.contains("against")) {
+    dock.effort = find_effort(json.at("against").get<std::string>()).key;
+  }
+}
+
+ordered_json dock_json(const DockState& dock) {
+  ordered_json json;
+  if (dock.open) {
+    json["open"] = *dock.open;
+  }
+  json["height"] = dock.height;
+  json["against"] = effort_row(dock.effort).id;
+  return json;
+}
+
 void read_all(const ordered_json& json, LabState& state, WindowMemory& memory) {
   read(json, "width", memory.width);
   read(json, "height", memory.height);
@@ -50,11 +71,16 @@ void read_all(const ordered_json& json, LabState& state, WindowMemory& memory) {
   }
   state.view.heat =
       json.value("heat", "linked") == "report" ? HeatRange::report : HeatRange::linked;
-  const auto layout = std::ranges::find(layout_ids, json.value("layout", "columns"));
-  if (layout != layout_ids.end()) {
-    state.layout = LabLayout(layout - layout_ids.begin());
+  if (json.contains("layout")) {
+    state.layout = find_layout(json.at("layout").get<std::string>()).key;
   }
   read(json, "export_folder", state.export_form.folder);
+  if (json.contains("metric")) {
+    state.request.metric = find_metric(json.at("metric").get<std::string>()).key;
+  }
+  if (json.contains("dock")) {
+    read_dock(json.at("dock"), state.dock);
+  }
   if (json.contains("slots")) {
     read_slots(json.at("slots"), state);
   }
@@ -99,11 +125,13 @@ void save_config(const std::filesystem::path& path, const LabState& state,
   json["height"] = memory.height;
   json["ui_scale"] = state.ui_scale;
   json["scene"] = state.scene;
-  json["layout"] = layout_ids[std::size_t(state.layout)];
+  json["layout"] = layout_row(state.layout).id;
   json["exposure"] = state.view.exposure;
   json["tone_map"] = tone_map_row(state.view.tone_map).id;
   json["heat"] = state.view.heat == HeatRange::linked ? "linked" : "report";
   json["export_folder"] = state.export_form.folder;
+  json["metric"] = metric(state.request.metric).id;
+  json["dock"] = dock_json(state.dock);
   for (const LaneSlots& slots : state.slots) {
     ordered_json lane;
     for (const SlotChoice& choice : slots) {

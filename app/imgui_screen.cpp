@@ -25,6 +25,11 @@ ImguiScreen::~ImguiScreen() {
   ImGui::DestroyContext(context_);
 }
 
+void ImguiScreen::forget_fonts() {
+  // The one call for it that every Dear ImGui from 1.86 on has; the next frame makes all anew.
+  ImGui_ImplOpenGL3_DestroyDeviceObjects();
+}
+
 void ImguiScreen::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();

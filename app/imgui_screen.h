@@ -14,6 +14,8 @@ class ImguiScreen {
   ImguiScreen(const ImguiScreen&) = delete;
   ImguiScreen& operator=(const ImguiScreen&) = delete;
 
+  /// Fonts were made anew: before the next frame.
+  void forget_fonts();
   /// Begins a frame; ImGui's display size and time step are set already.
   void begin_frame();
   /// Draws what was asked for since begin_frame on a cleared ground of width × height pixels.

@@ -9,6 +9,7 @@
 #include "app/imgui_screen.h"
 #include "app/lab_driver.h"
 #include "app/window.h"
+#include "renderer/measure/reference_cache.h"
 
 namespace quartet {
 namespace {
@@ -39,20 +40,20 @@ void run_window(const WindowOptions& options) {
 
   Window window("Quartet", memory.width, memory.height);
   ImguiScreen screen;
-  const float scale = state.ui_scale > 0.0f ? state.ui_scale : window.monitor_scale();
   const std::string scene = state.scene;
-  LabDriver driver(std::move(state), scale, window.gl(), [&window] { window.wake(); });
+  LabDriver driver(
+      std::move(state), window.gl(), [&window] { window.wake(); }, reference_cache_folder());
   if (!complaint.empty()) {
     driver.window().say(Message::Kind::error, complaint);
   }
   driver.load(scene);
   WindowHandlers handlers;
   handlers.key = [&](const KeyEvent& event) { driver.window().key(event); };
-  handlers.drop = [&](const std::string& path) { driver.load(path); };
+  handlers.drop = [&](const std::string& path) { driver.drop(path); };
   handlers.wants_to_close = [&] { return driver.window().state().quit; };
   handlers.draw = [&](double seconds) {
     window.begin_imgui_frame();
-    screen.begin_frame();
+    driver.begin_frame(screen, window.monitor_scale());
     const bool again = driver.draw(seconds);
     int width = 0;
     int height = 0;

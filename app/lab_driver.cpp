@@ -2,18 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/lab_export.h"
 
 namespace quartet {
 
-LabDriver::LabDriver(LabState state, float scale, const GlFunctions& gl, std::function<void()> wake)
+LabDriver::LabDriver(LabState state, const GlFunctions& gl, std::function<void()> wake,
+                     const std::filesystem::path& reference_cache)
     : textures_(gl),
-      window_(std::move(state), scale,
+      window_(std::move(state),
               [this](std::size_t slot, const DisplayImage& image) {
                 return textures_.upload(slot, image);
               }),
       session_(wake),
-      loader_(wake) {
+      loader_(wake),
+      references_(reference_work(reference_cache, [this] { return session_.busy(); }), wake),
+      reference_(references_.latest()),
+      evaluations_(evaluation_work(), wake),
+      equaliser_(equalise_work(), wake) {
+}
+
+void LabDriver::drop(const std::filesystem::path& file) {
+  if (file.extension() == ".exr") {
+    load_reference(file);
+  } else {
+    load(file.string());
+  }
+}
+
+void LabDriver::load_reference(const std::filesystem::path& file) {
+  const LabRequest& wanted = window_.state().request;
+  if (wanted.scene) {
+    ask_for_reference({wanted.scene, wanted.settings, file, 0});
+  } else {
+    window_.say(Message::Kind::error,
+                fmt::format("{}: there is no scene yet that it could belong to", file.string()));
+  }
+}
+
+void LabDriver::begin_frame(ImguiScreen& screen, float natural_scale) {
+  if (window_.rescale(natural_scale)) {
+    screen.forget_fonts();
+  }
+  screen.begin_frame();
 }
 
 bool LabDriver::draw(double seconds) {
@@ -24,8 +56,15 @@ bool LabDriver::draw(double seconds) {
       window_.scene_failed(loaded->error);
     }
   }
+  keep_reference_current();
   snapshot_ = session_.latest();
-  const LabOrders orders = window_.draw({snapshot_, session_.status(), loader_.busy(), seconds});
+  const bool answered = reference_->input == reference_request_;
+  const bool pending =
+      !answered || reference_->output.activity == ReferenceStatus::Activity::loading;
+  const LabOrders orders =
+      window_.draw({snapshot_, session_.status(), loader_.busy(),
+                    answered ? reference_->output : ReferenceStatus(), pending,
+                    evaluations_.latest()->output, keep_equalising(), seconds});
   if (orders.load_scene) {
     loader_.load(*orders.load_scene);
   }
@@ -33,16 +72,126 @@ bool LabDriver::draw(double seconds) {
     save(*orders.save);
   }
   const LabRequest& wanted = window_.state().request;
-  if (wanted.scene && !same_request(wanted, submitted_)) {
+  if (orders.reference) {
+    ask_for_reference(
+        {wanted.scene, wanted.settings, orders.reference->file, orders.reference->spp});
+  }
+  if (orders.equalise) {
+    equalise(*orders.equalise);
+  } else if (orders.stop_equalising) {
+    equaliser_.submit({});
+    equalise_request_ = 0;
+  }
+  // Whoever looks at the truth waits until it is known whether there is one.
+  const bool lacks_truth =
+      !wanted.reference && std::ranges::any_of(wanted.policies, [](const SamplingPolicy& policy) {
+        return estimator(policy.estimator).needs_reference;
+      });
+  if (wanted.scene && !lacks_truth && !same_request(wanted, submitted_)) {
     submitted_ = wanted;
     request_ = session_.submit(wanted);
   }
+  evaluate();
   return orders.animate || orders.load_scene || orders.save;
 }
 
+void LabDriver::ask_for_reference(ReferenceRequest request) {
+  asked_reference_ = request;
+  said_error_.clear();
+  reference_request_ = references_.submit(std::move(request));
+}
+
+/// Another view wants another reference, which the cache may hold.
+void LabDriver::keep_reference_current() {
+  const LabRequest& wanted = window_.state().request;
+  const ReferenceRequest view{wanted.scene, wanted.settings, {}, 0};
+  if (wanted.scene && !same_view(view, asked_reference_)) {
+    ask_for_reference(view);
+  }
+  reference_ = references_.latest();
+  const std::string& error = reference_->output.error;
+  if (reference_->input == reference_request_ && error != said_error_) {
+    said_error_ = error;
+    if (!error.empty()) {
+      window_.say(Message::Kind::error, error);
+    }
+  }
+}
+
+void LabDriver::equalise(const EqualiseOrder& order) {
+  const LabRequest& wanted = window_.state().request;
+  EqualiseRequest request{wanted.scene,     wanted.settings,   wanted.policies, {},
+                          wanted.reference, wanted.memory / 2, wanted.threads};
+  request.budget.frames = order.frames;
+  request.budget.spp = order.spp;
+  request.budget.seconds = order.seconds;
+  if (order.error) {
+    request.budget.error = ErrorTarget{wanted.metric, *order.error};
+  }
+  equalised_ = request;
+  equalise_request_ = equaliser_.submit(std::move(request));
+}
+
+/// How far it has come; at its end the lanes get the thresholds that were found.
+EqualiseProgress LabDriver::keep_equalising() {
+  const auto latest = equaliser_.latest();
+  if (equalise_request_ == 0 || latest->input != equalise_request_) {
+    return {equalise_request_ == 0 ? 0 : equalised_.policies.size(), 0};
+  }
+  const EqualiseStatus& status = latest->output;
+  if (!status.done) {
+    return {status.lanes, status.calibrations.size()};
+  }
+  equalise_request_ = 0;
+  std::vector<SamplingPolicy>& lanes = window_.state().request.policies;
+  for (std::size_t i = 0; i < std::min(lanes.size(), status.calibrations.size()); ++i) {
+    // What the user has changed meanwhile stays.
+    if (lanes[i] == equalised_.policies[i]) {
+      lanes[i] = status.calibrations[i].policy;
+    }
+  }
+  window_.say(status.error.empty() ? Message::Kind::notice : Message::Kind::error,
+              equalise_text(equalised_, status));
+  return {};
+}
+
+/// All metrics of what is shown, once the lanes rest.
+void LabDriver::evaluate() {
+  if (!snapshot_ || session_.status().activity != SessionStatus::Activity::idle) {
+    return;
+  }
+  const std::shared_ptr<const Reference>& reference = reference_->output.reference;
+  const bool measured = reference && snapshot_->reference.get() == &reference->image;
+  EvaluationInput input{measured ? snapshot_ : nullptr, measured ? reference : nullptr};
+  if (input.snapshot != evaluated_.snapshot || input.reference != evaluated_.reference) {
+    evaluated_ = input;
+    evaluation_request_ = evaluations_.submit(std::move(input));
+  }
+}
+
 bool LabDriver::settled() const {
-  return !loader_.busy() && same_request(window_.state().request, submitted_) && snapshot_ &&
-         snapshot_->request == request_ && snapshot_->frame >= submitted_.frame;
+  const bool lanes = !loader_.busy() && same_request(window_.state().request, submitted_) &&
+                     snapshot_ && snapshot_->request == request_ &&
+                     snapshot_->frame >= submitted_.frame;
+  if (!lanes || reference_request_ == 0) {
+    return lanes;
+  }
+  const ReferenceStatus& reference = reference_->output;
+  if (reference_->input != reference_request_ ||
+      reference.activity != ReferenceStatus::Activity::idle) {
+    return false;
+  }
+  if (!reference.reference) {
+    return true;
+  }
+  const auto evaluation = evaluations_.latest();
+  return submitted_.reference && evaluation->input == evaluation_request_ &&
+         evaluation->output.complete && evaluation->output.snapshot == snapshot_;
+}
+
+std::string LabDriver::error() const {
+  const std::string lanes = session_.status().error;
+  return lanes.empty() ? said_error_ : lanes;
 }
 
 void LabDriver::save(const ExportForm& form) {

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "app/gl_textures.h"
+#include "app/imgui_screen.h"
 #include "app/scene_loader.h"
 #include "renderer/adaptive/session.h"
+#include "renderer/measure/equalise_task.h"
+#include "renderer/measure/evaluation.h"
+#include "renderer/measure/reference_task.h"
 #include "ui/lab_window.h"
 
 namespace quartet {
@@ -17,11 +23,19 @@ class LabDriver {
  public:
   /// ImGui's and OpenGL's contexts are current. `wake` is called on other threads when there is
   /// something new to draw.
-  LabDriver(LabState state, float scale, const GlFunctions& gl, std::function<void()> wake);
+  /// References are cached in the folder `reference_cache`, or not at all if it is empty.
+  LabDriver(LabState state, const GlFunctions& gl, std::function<void()> wake,
+            const std::filesystem::path& reference_cache = {});
 
+  /// A file that was dropped: a reference if it is an EXR, else a scene.
+  void drop(const std::filesystem::path& file);
+  void load_reference(const std::filesystem::path& file);
   void load(const std::string& scene, const SceneParameters& parameters = {}) {
     loader_.load(scene, parameters);
   }
+
+  /// Begins a frame of the screen; `natural_scale` is that of text and controls on its display.
+  void begin_frame(ImguiScreen& screen, float natural_scale);
 
   /// Draws the window, between ImGui's NewFrame and Render, and passes on what it asks for.
   /// Returns whether it wants to be drawn again soon though nothing happens.
@@ -31,10 +45,16 @@ class LabDriver {
   bool settled() const;
 
   LabWindow& window() { return window_; }
-  SessionStatus status() const { return session_.status(); }
+  /// Why something that was asked for cannot be had; empty if all is well.
+  std::string error() const;
   const std::shared_ptr<const Snapshot>& snapshot() const { return snapshot_; }
 
  private:
+  void ask_for_reference(ReferenceRequest request);
+  void keep_reference_current();
+  void evaluate();
+  void equalise(const EqualiseOrder& order);
+  EqualiseProgress keep_equalising();
   void save(const ExportForm& form);
 
   GlTextures textures_;
@@ -44,6 +64,19 @@ class LabDriver {
   std::shared_ptr<const Snapshot> snapshot_;
   LabRequest submitted_;
   std::uint64_t request_ = 0;
+
+  ReferenceTask references_;
+  ReferenceRequest asked_reference_;
+  std::uint64_t reference_request_ = 0;
+  std::string said_error_;  // of the reference, so that it is said once
+  std::shared_ptr<const ReferenceTask::Answer> reference_;
+  EvaluationTask evaluations_;
+  EvaluationInput evaluated_;
+  std::uint64_t evaluation_request_ = 0;
+
+  EqualiseTask equaliser_;
+  EqualiseRequest equalised_;
+  std::uint64_t equalise_request_ = 0;  // 0: nothing is under way
 };
 
 }  // namespace quartet

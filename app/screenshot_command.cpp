@@ -20,6 +20,8 @@
 #include "app/stop_options.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
+#include "renderer/table.h"
+#include "ui/lab_layout.h"
 
 namespace quartet {
 namespace {
@@ -34,19 +36,9 @@ struct ScreenshotOptions {
   float scale = 0.0f;
   std::string layout = "columns";
   std::vector<std::string> views{"image", "heatmap"};
+  std::string metric = "relmse";
   std::string output;
 };
-
-LabLayout layout_of(const std::string& id) {
-  constexpr std::array ids{"columns", "grid", "large"};
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (id == ids[i]) {
-      return LabLayout(i);
-    }
-  }
-  throw UsageError(
-      fmt::format("--layout: unknown layout '{}'; there are: columns, grid, large", id));
-}
 
 /// The window shows all lanes at one frame: the one where the last of them meets its end. To know
 /// it of anything but a number of frames takes a run of its own.
@@ -70,7 +62,12 @@ LabState state_of(const ScreenshotOptions& options, const Run& run) {
   state.request.memory = run.lab.memory;
   state.request.threads = run.lab.threads;
   state.view = view_settings(options.view);
-  state.layout = layout_of(options.layout);
+  state.layout = find_layout(options.layout).key;
+  state.ui_scale = options.scale;
+  state.request.metric = find_metric(options.metric).key;
+  if (!options.reference.empty()) {
+    state.dock.open = true;
+  }
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     for (std::size_t slot = 0; slot < 2; ++slot) {
       const std::string& id = options.views[std::min(slot, options.views.size() - 1)];
@@ -91,7 +88,6 @@ void run_screenshot(const ScreenshotOptions& options) {
   Run run = prepare_run(options.run, lane_count);
   LabState state = state_of(options, run);
   run.lab.reference = truth_for(state.request.policies, reference_at(options.reference, run));
-  state.request.reference = run.lab.reference;
   StagedFiles files(output.parent_path());
   const std::uint32_t frames = frame_of_end(stop, run, state.request.policies);
   state.playback.set_target(frames);
@@ -99,11 +95,13 @@ void run_screenshot(const ScreenshotOptions& options) {
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};
   ImGui::GetIO().MousePos = {-1.0f, -1.0f};
-  const float scale = options.scale > 0.0f ? options.scale : natural_scale(size.width, size.height);
-  LabDriver driver(std::move(state), scale, offscreen.gl(), [] {});
+  LabDriver driver(std::move(state), offscreen.gl(), [] {});
+  if (!options.reference.empty()) {
+    driver.load_reference(options.reference);
+  }
   const auto draw = [&] {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
-    screen.begin_frame();
+    driver.begin_frame(screen, natural_scale(size.width, size.height));
     driver.draw(0.0);
     screen.end_frame(offscreen.gl(), size.width, size.height);
   };
@@ -118,7 +116,7 @@ void run_screenshot(const ScreenshotOptions& options) {
     draw();
     const std::uint32_t frame = driver.snapshot() ? driver.snapshot()->frame : 0;
     progress.update(double(frame) / double(frames), fmt::format("frame {} of {}", frame, frames));
-    if (const std::string error = driver.status().error; !error.empty()) {
+    if (const std::string error = driver.error(); !error.empty()) {
       throw std::runtime_error(error);
     }
   }
@@ -152,12 +150,12 @@ void add_screenshot_command(CLI::App& app, const Program&) {
       ->check(number_between(0.5, 8.0));
   command->add_option("--layout", options->layout, "columns, grid or large")->capture_default_str();
   command
-      ->add_option(
-          "--views", options->views,
-          "What the two pictures of each lane show: image, heatmap, error, variance, stop, "
-          "rejected or difference")
+      ->add_option("--views", options->views,
+                   "What the two pictures of each lane show: " + row_ids(views()))
       ->delimiter(',')
       ->expected(1, 2)
+      ->capture_default_str();
+  command->add_option("--metric", options->metric, "Of the dock's chart: " + row_ids(metrics()))
       ->capture_default_str();
   command->add_option("-o,--output", options->output, "A .png")->required();
   command->footer(

@@ -214,6 +214,11 @@ ImU32 screen_color(Rgba8 color) {
   return IM_COL32(color.r, color.g, color.b, color.a);
 }
 
+Rgba8 rgba_of(ImU32 color) {
+  const auto byte = [&](int shift) { return std::uint8_t(color >> shift); };
+  return {byte(IM_COL32_R_SHIFT), byte(IM_COL32_G_SHIFT), byte(IM_COL32_B_SHIFT), 255};
+}
+
 ScreenRect chart_area(const Ui& ui, const ScreenRect& box) {
   const float line = font_size(ui.small) + ui.px(3.0f);
   ScreenRect area = box;

@@ -22,5 +22,7 @@ std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Cha
 ScreenRect chart_area(const Ui& ui, const ScreenRect& box);
 
 ImU32 screen_color(Rgba8 color);
+/// The other way, opaque.
+Rgba8 rgba_of(ImU32 color);
 
 }  // namespace quartet

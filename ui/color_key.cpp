@@ -60,16 +60,16 @@ void draw_bar_ticks(const Ui& ui, const ScreenRect& bar, const ColorScale& scale
 }
 
 /// Swatches with what they mean: in words if there is room, else each in a tooltip's reach.
-void draw_legend(const Ui& ui, const ScreenRect& box, const std::vector<LegendEntry>& legend) {
+void draw_legend(const Ui& ui, const ScreenRect& box, const std::vector<ColorMeaning>& legend) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   std::uint64_t pixels = 0;
-  for (const LegendEntry& entry : legend) {
+  for (const ColorMeaning& entry : legend) {
     pixels += entry.pixels;
   }
   const float swatch = ui.px(9.0f);
   float x = box.x;
   float y = box.y + ui.px(4.0f);
-  for (const LegendEntry& entry : legend) {
+  for (const ColorMeaning& entry : legend) {
     const std::string text =
         fmt::format("{} {:.0f} %", entry.label,
                     100.0 * double(entry.pixels) / double(std::max<std::uint64_t>(pixels, 1)));

@@ -52,6 +52,15 @@ inline float font_size(const ImFont* font) {
 #endif
 }
 
+/// Whether the font itself has a sign for this character.
+inline bool has_glyph(ImFont* font, ImWchar character) {
+#if IMGUI_VERSION_NUM >= 19200
+  return font->IsGlyphInFont(character);
+#else
+  return font->FindGlyphNoFallback(character) != nullptr;
+#endif
+}
+
 inline ImTextureID texture_id(std::uintptr_t handle) {
   // A pointer up to 1.91, a number later; only one cast does both.
   return (ImTextureID)(std::intptr_t)handle;  // NOLINT(performance-no-int-to-ptr)

@@ -74,6 +74,12 @@ constexpr std::array table{
     KeyRow{'c', false, "C, held", "lane 1 in the place of all",
            [](LabState& s) { s.hold_first = true; }, [](LabState& s) { s.hold_first = false; }},
 
+    KeyRow{'x', false, "X, held", "the reference in the place of all images",
+           [](LabState& s) { s.hold_reference = true; },
+           [](LabState& s) { s.hold_reference = false; }},
+    KeyRow{'d', false, "D", "unfold, fold the dock of errors",
+           [](LabState& s) { s.dock.toggle = true; }, nullptr},
+
     KeyRow{'f', false, "F", "fit the picture into its slot", [](LabState& s) { s.pan_zoom = {}; },
            nullptr},
     KeyRow{'e', false, "E, Shift+E", "exposure up, down by half a stop",

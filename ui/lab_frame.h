@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "renderer/adaptive/session.h"
+#include "renderer/measure/evaluation.h"
+#include "renderer/measure/reference_task.h"
 #include "ui/lab_state.h"
 #include "ui/theme.h"
 
@@ -16,10 +19,33 @@ namespace quartet {
 /// window needs of a graphics library.
 using UploadTexture = std::function<std::uintptr_t(std::size_t slot, const DisplayImage& image)>;
 
+/// What is to become of the reference.
+struct ReferenceOrder {
+  std::filesystem::path file;  ///< to load; or, if empty,
+  std::uint64_t spp = 0;       ///< to compute, at least; 0: what there is, and no more
+};
+
+/// All lanes shall take the same, or come as far, by this frame; exactly one is given.
+struct EqualiseOrder {
+  std::uint32_t frames = 15;
+  std::optional<double> spp;      ///< mean
+  std::optional<double> seconds;  ///< as if alone
+  std::optional<double> error;    ///< in the metric of the request
+};
+
+/// How far that has come.
+struct EqualiseProgress {
+  std::size_t lanes = 0;  ///< 0: nothing is under way
+  std::size_t done = 0;
+};
+
 /// What the user asked for, beyond the request, while one frame was drawn.
 struct LabOrders {
   std::optional<std::string> load_scene;  ///< a built-in name or a file
   std::optional<ExportForm> save;
+  std::optional<ReferenceOrder> reference;
+  std::optional<EqualiseOrder> equalise;
+  bool stop_equalising = false;
   bool animate = false;  ///< time passes: draw again soon, even without input
 };
 
@@ -39,6 +65,9 @@ struct LabFrame {
   const Snapshot* snapshot;  ///< null before the first one
   const SessionStatus& status;
   bool loading;  ///< a scene is being loaded
+  const ReferenceStatus& reference;
+  const Evaluation& evaluation;
+  const EqualiseProgress& equalising;
   PictureCache& pictures;
   Message& message;
   LabOrders& orders;

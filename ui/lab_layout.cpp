@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/table.h"
 #include "ui/lane_header.h"
 
 namespace quartet {
@@ -12,6 +13,12 @@ constexpr float gap = 6.0f;
 constexpr float margin = 8.0f;
 constexpr float least_chart = 62.0f;
 constexpr float top_line = 3.0f;  // in the lane's colour
+
+constexpr std::array table{
+    LayoutRow{LabLayout::columns, "columns", "columns"},
+    LayoutRow{LabLayout::grid, "grid", "2 × 2"},
+    LayoutRow{LabLayout::large, "large", "one large"},
+};
 
 ScreenRect rounded(const ScreenRect& box) {
   const float x = std::round(box.x);
@@ -24,16 +31,32 @@ ScreenRect inside(const Ui& ui, ScreenRect panel) {
   return panel.inset(ui.px(margin), ui.px(margin));
 }
 
-/// Charts below each other, in what is left.
-void stack_charts(const Ui& ui, ScreenRect box, ColumnLayout& layout) {
-  const float each = (box.height - 2 * ui.px(gap)) / 3.0f;
-  for (ScreenRect& chart : layout.charts) {
-    chart = rounded(box.cut_top(each));
+float charts_height(const Ui& ui, std::size_t count) {
+  return float(count) * ui.px(least_chart) + float(count - 1) * ui.px(gap);
+}
+
+/// Charts below each other, in what is left; those beyond `count` get no room.
+void stack_charts(const Ui& ui, ScreenRect box, ColumnLayout& layout, std::size_t count = 3) {
+  const float each = (box.height - float(count - 1) * ui.px(gap)) / float(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    layout.charts[i] = rounded(box.cut_top(each));
     box.cut_top(ui.px(gap));
   }
 }
 
 }  // namespace
+
+std::span<const LayoutRow> layouts() {
+  return table;
+}
+
+const LayoutRow& layout_row(LabLayout key) {
+  return row_of(layouts(), key);
+}
+
+const LayoutRow& find_layout(std::string_view id) {
+  return find_row(layouts(), id, "layout");
+}
 
 ColumnLayout lay_out_column(const Ui& ui, const ScreenRect& panel, const ColumnWish& wish) {
   ColumnLayout layout;
@@ -42,15 +65,22 @@ ColumnLayout lay_out_column(const Ui& ui, const ScreenRect& panel, const ColumnW
   layout.header = box.cut_top(lane_header_height(ui, box.width));
   box.cut_top(ui.px(4.0f));
   const float keys = wish.key_heights[0] + wish.key_heights[1];
-  const float charts = 3 * ui.px(least_chart) + 2 * ui.px(gap);
-  const float room = box.height - keys - charts - 2 * ui.px(gap);
-  const float picture = std::max(ui.px(40.0f), std::min(box.width / wish.aspect, 0.5f * room));
+  // Pictures come first: the last charts give way before a picture shrinks by much.
+  std::size_t charts = layout.charts.size();
+  const auto picture_height = [&] {
+    const float room = box.height - keys - charts_height(ui, charts) - 2 * ui.px(gap);
+    return std::min(box.width / wish.aspect, 0.5f * room);
+  };
+  while (charts > 1 && picture_height() < 0.6f * box.width / wish.aspect) {
+    --charts;
+  }
+  const float picture = std::max(ui.px(40.0f), picture_height());
   for (std::size_t slot = 0; slot < 2; ++slot) {
     layout.pictures[slot] = rounded(box.cut_top(picture));
     layout.keys[slot] = box.cut_top(wish.key_heights[slot]);
     box.cut_top(ui.px(gap));
   }
-  stack_charts(ui, box, layout);
+  stack_charts(ui, box, layout, charts);
   return layout;
 }
 
@@ -86,7 +116,7 @@ ColumnLayout lay_out_large(const Ui& ui, const ScreenRect& area, const ColumnWis
   box.cut_left(ui.px(margin));
   layout.header = left.cut_top(lane_header_height(ui, left.width));
   left.cut_top(ui.px(4.0f));
-  const float charts = 3 * ui.px(least_chart) + 2 * ui.px(gap);
+  const float charts = charts_height(ui, layout.charts.size());
   layout.pictures[1] = rounded(
       left.cut_top(std::min(left.width / wish.aspect, left.height - wish.key_heights[1] - charts)));
   layout.keys[1] = left.cut_top(wish.key_heights[1]);

@@ -1,12 +1,26 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "ui/lab_state.h"
 #include "ui/theme.h"
 
 namespace quartet {
+
+/// One row of the table of layouts.
+struct LayoutRow {
+  LabLayout key;
+  std::string_view id;     ///< on the command line and in files
+  std::string_view label;  ///< for people
+};
+
+std::span<const LayoutRow> layouts();
+const LayoutRow& layout_row(LabLayout key);
+/// Throws std::invalid_argument that lists the legal ids.
+const LayoutRow& find_layout(std::string_view id);
 
 /// Where the parts of a lane's column lie.
 struct ColumnLayout {

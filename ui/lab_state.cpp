@@ -31,8 +31,8 @@ void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene) {
 
 bool same_request(const LabRequest& a, const LabRequest& b) {
   return a.scene == b.scene && a.settings == b.settings && a.policies == b.policies &&
-         a.frame == b.frame && a.variance == b.variance && a.memory == b.memory &&
-         a.threads == b.threads && a.reference == b.reference;
+         a.frame == b.frame && a.variance == b.variance && a.reference == b.reference &&
+         a.metric == b.metric && a.memory == b.memory && a.threads == b.threads;
 }
 
 }  // namespace quartet

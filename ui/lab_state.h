@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "renderer/adaptive/session.h"
+#include "renderer/image/error_curves.h"
+#include "renderer/image/lane_charts.h"
 #include "renderer/image/views.h"
+#include "renderer/measure/failure_case.h"
 #include "ui/camera_controls.h"
 #include "ui/pan_zoom.h"
 #include "ui/playback.h"
@@ -41,6 +44,38 @@ struct Comparison {
   }
 };
 
+/// The axis of a lane's errors while a threshold on it is dragged: it must not move under the
+/// mouse.
+struct HeldAxis {
+  std::size_t lane = 0;
+  DecadeRange decades;
+  bool by_marker = false;  ///< the threshold's line in the plot, else something beside the plot
+};
+
+enum class DockView { curves, quality };
+
+/// The dock under the lanes: how far they are from a reference.
+struct DockState {
+  /// As the user chose; else it opens by itself once there is a reference and room for both.
+  std::optional<bool> open;
+  bool toggle = false;  ///< at the next frame, which knows whether it is open
+  float height = 0.0f;  ///< when open, at scale 1; 0: what suits the window
+  Effort effort = Effort::seconds;
+  DockView view = DockView::curves;
+};
+
+struct ReferenceForm {
+  std::uint64_t spp = 1024;  ///< to compute
+  std::string path;          ///< to load
+};
+
+/// What all lanes shall have in common, to be edited.
+struct EqualiseForm {
+  float spp = 0.0f;
+  float seconds = 0.0f;
+  float error = 0.0f;  ///< in the metric of the request
+};
+
 struct ExportForm {
   bool open = false;
   std::string folder = "quartet-export";
@@ -58,16 +93,23 @@ struct LabState {
   std::array<LaneSlots, lane_count> slots;
   LabLayout layout = LabLayout::columns;
   Comparison comparison;
-  bool hold_first = false;  ///< lane 1 is shown in the place of all
+  bool hold_first = false;      ///< lane 1 is shown in the place of all
+  bool hold_reference = false;  ///< the reference is shown in the place of all images
   PanZoom pan_zoom;
   std::optional<glm::ivec2> hovered;  ///< pixel under the mouse
   std::optional<glm::ivec2> pinned;   ///< pixel that was clicked
-  bool normalize = false;             ///< set the exposure to the picture, at the next frame
+  std::optional<HeldAxis> held_axis;
+  bool normalize = false;  ///< set the exposure to the picture, at the next frame
 
   std::string scene = "cornell-checker";  ///< as asked for: a built-in name, or a file
   std::string path_field;
+  const FailureCase* failure = nullptr;        ///< that the scene was loaded for
+  const FailureCase* failure_asked = nullptr;  ///< the same, of the scene that is being loaded
   bool help_open = false;
   float ui_scale = 0.0f;  ///< 0: as the monitor says
+  DockState dock;
+  ReferenceForm reference_form;
+  EqualiseForm equalise_form;
   ExportForm export_form;
   bool quit = false;
 

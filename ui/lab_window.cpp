@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "ui/dialogs.h"
+#include "ui/dock.h"
 #include "ui/lane_column.h"
+#include "ui/scene_menu.h"
 #include "ui/status_bar.h"
 #include "ui/toolbar.h"
 #include "ui/widgets.h"
@@ -68,16 +71,30 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
 
 }  // namespace
 
-LabWindow::LabWindow(LabState state, float scale, UploadTexture upload)
+LabWindow::LabWindow(LabState state, UploadTexture upload)
     : state_(std::move(state)), pictures_(std::move(upload)) {
-  set_theme(ui_, scale);
   last_ = state_.request;
+}
+
+bool LabWindow::rescale(float natural) {
+  const float wanted = state_.ui_scale > 0.0f ? state_.ui_scale : natural;
+  if (ui_.body && wanted == ui_.scale) {
+    return false;
+  }
+  set_theme(ui_, wanted);
+  return true;
 }
 
 void LabWindow::scene_loaded(std::shared_ptr<const TraceScene> scene, const std::string& asked) {
   set_scene(state_, std::move(scene));
   state_.scene = asked;
+  state_.failure = nullptr;
   message_ = {};
+  if (const FailureCase* const failure = std::exchange(state_.failure_asked, nullptr);
+      failure && failure->scene == asked) {
+    show_failure(state_, *failure);
+    say(Message::Kind::notice, std::string(failure->watch));
+  }
 }
 
 /// The exposure at which all but one pixel in a hundred of the chosen lane stay below white.
@@ -102,16 +119,18 @@ void LabWindow::normalize_exposure() {
 }
 
 /// What follows from the rest of the state, so that no widget and no key needs to think of it.
-void LabWindow::keep_request_consistent() {
+void LabWindow::keep_request_consistent(bool reference_pending) {
   LabRequest& request = state_.request;
   request.variance = wants_variance(state_);
   if (request.scene != last_.scene || !(request.settings == last_.settings)) {
     state_.playback.forget();
+    request.reference.reset();  // of another view; the next frame will bring what is right
+    reference_pending = true;
   }
   request.frame = state_.playback.wanted();
   // Without the truth there is nothing that such a lane could look at.
   for (SamplingPolicy& policy : request.policies) {
-    if (!request.reference && estimator(policy.estimator).needs_reference) {
+    if (!request.reference && !reference_pending && estimator(policy.estimator).needs_reference) {
       policy = default_policy(EstimatorId::uniform);
     }
   }
@@ -150,8 +169,12 @@ void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
 
 LabOrders LabWindow::draw(const LabInput& input) {
   snapshot_ = input.snapshot;
+  const std::shared_ptr<const Reference>& reference = input.reference.reference;
+  // It lives as long as the whole of which it is a part.
+  state_.request.reference = {reference, reference ? &reference->image : nullptr};
   LabOrders orders;
   ui_.widgets.clear();
+  ui_.held.clear();
   if (state_.normalize) {
     normalize_exposure();
   }
@@ -170,8 +193,17 @@ LabOrders LabWindow::draw(const LabInput& input) {
                    ImGuiWindowFlags_NoNav);
   ImGui::PopStyleVar();
   ImGui::PushFont(ui_.body);
-  LabFrame frame{ui_,           state_,    snapshot_.get(), input.status,
-                 input.loading, pictures_, message_,        orders};
+  LabFrame frame{ui_,
+                 state_,
+                 snapshot_.get(),
+                 input.status,
+                 input.loading,
+                 input.reference,
+                 input.evaluation,
+                 input.equalising,
+                 pictures_,
+                 message_,
+                 orders};
   ScreenRect area{0, 0, size.x, size.y};
   const ScreenRect status = area.cut_bottom(status_bar_height(ui_));
   const ScreenRect toolbar = area.cut_top(toolbar_height(frame, area.width));
@@ -179,14 +211,17 @@ LabOrders LabWindow::draw(const LabInput& input) {
   ImGui::GetWindowDrawList()->AddRectFilled(
       {0, toolbar.bottom()}, {size.x, toolbar.bottom() + ui_.px(side_gap)}, palette::gap);
   area.cut_top(ui_.px(side_gap));
+  const ScreenRect below_toolbar = area;
+  const ScreenRect dock = area.cut_bottom(dock_height(frame, below_toolbar));
   draw_lanes(frame, area);
+  draw_dock(frame, below_toolbar, dock);
   draw_status_bar(frame, status);
   draw_help(frame);
   draw_export_form(frame);
   ImGui::PopFont();
   ImGui::End();
   state_.hovered = frame.hovered;
-  keep_request_consistent();
+  keep_request_consistent(input.reference_pending);
   return orders;
 }
 

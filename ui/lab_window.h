@@ -13,7 +13,11 @@ namespace quartet {
 struct LabInput {
   std::shared_ptr<const Snapshot> snapshot;  ///< null before the first one
   SessionStatus status;
-  bool loading = false;  ///< a scene is being loaded
+  bool loading = false;            ///< a scene is being loaded
+  ReferenceStatus reference;       ///< of what is asked for now
+  bool reference_pending = false;  ///< whether there is one will be known soon
+  Evaluation evaluation;           ///< the newest; of any snapshot, also an older one
+  EqualiseProgress equalising;
   double seconds = 0.0;  ///< on any clock
 };
 
@@ -23,7 +27,12 @@ struct LabInput {
 class LabWindow {
  public:
   /// An ImGui context must be current, before its first frame.
-  LabWindow(LabState state, float scale, UploadTexture upload);
+  LabWindow(LabState state, UploadTexture upload);
+
+  /// Takes the scale of text and controls that the user chose, else `natural`, which suits the
+  /// display. Between two frames. Returns whether fonts were made anew: textures of the old ones
+  /// mean nothing now.
+  bool rescale(float natural);
 
   /// Draws all of it, between ImGui's NewFrame and Render.
   LabOrders draw(const LabInput& input);
@@ -42,7 +51,7 @@ class LabWindow {
  private:
   void draw_lanes(LabFrame& frame, const ScreenRect& area);
   void normalize_exposure();
-  void keep_request_consistent();
+  void keep_request_consistent(bool reference_pending);
 
   Ui ui_;
   LabState state_;

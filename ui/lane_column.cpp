@@ -15,9 +15,24 @@ namespace {
 // Two texture slots a lane, and one more for the right side of the wipe.
 constexpr std::size_t wipe_texture = 2 * lane_count;
 
-Rgba8 rgba(ImU32 color) {
-  const auto byte = [&](int shift) { return std::uint8_t(color >> shift); };
-  return {byte(IM_COL32_R_SHIFT), byte(IM_COL32_G_SHIFT), byte(IM_COL32_B_SHIFT), 255};
+/// What the axis spans that would else span `wanted`. A line that is dragged in the plot must find
+/// its numbers where they were; with a slider the axis follows outwards, so that the line stays in
+/// sight, but not back.
+DecadeRange axis_of_errors(const LabState& state, std::size_t lane, const DecadeRange& wanted) {
+  if (!state.held_axis || state.held_axis->lane != lane) {
+    return wanted;
+  }
+  const HeldAxis& held = *state.held_axis;
+  return held.by_marker ? held.decades : held.decades.with(wanted);
+}
+
+void hold_axis(LabFrame& frame, std::size_t lane, const DecadeRange& decades, bool by_marker) {
+  std::optional<HeldAxis>& held = frame.state.held_axis;
+  if (by_marker || holds_threshold(frame.ui, lane)) {
+    held = {lane, decades, by_marker};
+  } else if (held && held->lane == lane) {
+    held.reset();
+  }
 }
 
 void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) {
@@ -25,18 +40,19 @@ void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) 
   if (!shown) {
     return;
   }
-  const Rgba8 accent = rgba(lane_color(lane));
+  const Rgba8 accent = rgba_of(lane_color(lane));
   const std::string name = fmt::format("lane{}.", lane);
   // Ahead of the lane while one is dragged; of another estimator they would mean nothing here.
   SamplingPolicy& wanted = frame.state.request.policies[lane];
   const Thresholds& thresholds =
       wanted.estimator == shown->policy.estimator ? wanted.thresholds : shown->policy.thresholds;
-  const Chart errors = error_chart(*frame.snapshot, lane, thresholds, accent);
-  if (const auto drag = paint_chart(frame.ui, name + "errors", errors, layout.charts[0])) {
-    if (wanted.estimator == shown->policy.estimator) {
-      wanted.thresholds[std::size_t(drag->id)] = float(drag->value);
-    }
+  const DecadeRange decades = axis_of_errors(frame.state, lane, error_decades(*shown, thresholds));
+  const Chart errors = error_chart(*frame.snapshot, lane, thresholds, accent, decades);
+  const auto drag = paint_chart(frame.ui, name + "errors", errors, layout.charts[0]);
+  if (drag && wanted.estimator == shown->policy.estimator) {
+    wanted.thresholds[std::size_t(drag->id)] = float(drag->value);
   }
+  hold_axis(frame, lane, decades, drag.has_value());
   const ColorScale scale = heat_scale(*frame.snapshot, lane, frame.state.view.heat);
   paint_chart(frame.ui, name + "samples", sample_chart(*frame.snapshot, lane, scale),
               layout.charts[1]);

@@ -287,6 +287,10 @@ ThresholdRange threshold_range(const Estimator& row, std::size_t channel) {
   return {middle * 0.01f, std::min(middle * 100.0f, std::max(1.0f, 2.0f * middle))};
 }
 
+bool holds_threshold(const Ui& ui, std::size_t lane) {
+  return ui.held.starts_with(lane_name(lane, "threshold"));
+}
+
 float lane_header_height(const Ui& ui, float width) {
   const float rows = is_wide(ui, width) ? 2.0f : 3.0f;
   const float numbers = is_wide(ui, width) ? 0.0f : font_size(ui.small) + ui.px(7.0f);

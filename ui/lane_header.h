@@ -15,4 +15,7 @@ struct ThresholdRange {
 };
 ThresholdRange threshold_range(const Estimator& row, std::size_t channel);
 
+/// Whether the mouse holds one of the lane's thresholds there.
+bool holds_threshold(const Ui& ui, std::size_t lane);
+
 }  // namespace quartet

@@ -8,17 +8,21 @@
 #include "ui/imgui_compat.h"
 #include "ui/picture_cache.h"
 #include "ui/pixel_text.h"
+#include "ui/read_out.h"
 #include "ui/widgets.h"
 
 namespace quartet {
 namespace {
 
-std::string slot_name(const PictureSlot& slot) {
-  return fmt::format("lane{}.slot{}", slot.lane, slot.slot);
-}
-
 SlotChoice& choice_of(LabState& state, const PictureSlot& slot) {
   return state.slots[slot.lane][slot.slot];
+}
+
+/// What is drawn in the slot now: while a key is held, the reference in the place of the image.
+SlotChoice shown_choice(const LabState& state, const PictureSlot& slot) {
+  const SlotChoice& choice = state.slots[slot.lane][slot.slot];
+  return state.hold_reference && choice.kind == ViewKind::image ? SlotChoice{ViewKind::reference, 0}
+                                                                : choice;
 }
 
 std::string choice_label(const SlotChoice& choice) {
@@ -96,25 +100,19 @@ void draw_mark(const Ui& ui, const PicturePlace& place, glm::ivec2 pixel) {
                IM_COL32(255, 255, 255, 255), 0.0f, 0, std::max(1.0f, ui.px(1.2f)));
 }
 
-void draw_read_out(LabFrame& frame, const PictureSlot& slot, glm::ivec2 pixel) {
-  const LaneSnapshot* const lane = frame.lane(slot.source);
-  const auto index =
-      std::size_t(pixel.y) * std::size_t(frame.snapshot->width) + std::size_t(pixel.x);
-  const PixelValues values = pixel_values(*lane, index);
-  const float line = font_size(frame.ui.small) + frame.ui.px(4.0f);
-  const float pad = frame.ui.px(5.0f);
-  const float room = slot.box.width - 2 * pad;
-  const std::string first =
-      fmt::format("{}, {}   rgb {}", pixel.x, pixel.y, three_numbers(values.radiance));
-  const std::vector<std::string> second = read_out_texts(estimator(lane->policy.estimator), values);
-  const ScreenRect strip{slot.box.x, slot.box.bottom() - 2 * line - frame.ui.px(4.0f),
-                         slot.box.width, 2 * line + frame.ui.px(4.0f)};
-  ImGui::GetWindowDrawList()->AddRectFilled({strip.x, strip.y}, {strip.right(), strip.bottom()},
-                                            palette::shade);
-  text_at(frame.ui.small, strip.x + pad, strip.y + frame.ui.px(3.0f), palette::text, first);
-  text_at(frame.ui.small, strip.x + pad, strip.y + frame.ui.px(2.0f) + line, palette::text,
-          fitting_text(frame.ui.small, {second[0], second[1], second[2]}, room));
-  frame.ui.mark(slot_name(slot) + ".read_out", strip);
+/// Where what the scene was loaded for goes wrong.
+void draw_region(const LabFrame& frame, const PicturePlace& place, const DisplayImage& image) {
+  if (!frame.state.failure) {
+    return;
+  }
+  const PicturePart& region = frame.state.failure->region;
+  const auto corner = [&](double x, double y) {
+    return ImVec2(place.x + float(x) * place.scale * float(image.width()),
+                  place.y + float(y) * place.scale * float(image.height()));
+  };
+  ImGui::GetWindowDrawList()->AddRect(corner(region.left, region.top),
+                                      corner(region.right, region.bottom),
+                                      with_alpha(palette::text, 0.6f));
 }
 
 /// The numbers themselves, once a pixel is large enough to hold them.
@@ -124,7 +122,7 @@ void draw_numbers(LabFrame& frame, const PictureSlot& slot, const PicturePlace& 
   if (place.scale < 3.6f * line) {
     return;
   }
-  const SlotChoice choice = choice_of(frame.state, slot);
+  const SlotChoice choice = shown_choice(frame.state, slot);
   const auto first = [&](float edge, float origin) {
     return std::max(0, int(std::floor((edge - origin) / place.scale)));
   };
@@ -237,6 +235,7 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const PictureCache::P
         place_picture(frame.state.pan_zoom, slot.box, image.width(), image.height());
     draw_texture(*picture, place);
     draw_numbers(frame, slot, place, image);
+    draw_region(frame, place, image);
     if (!picture->view.note.empty()) {
       badge(ui, slot.box.x + ui.px(5.0f), slot.box.bottom() - ui.px(22.0f), palette::dim,
             picture->view.note);
@@ -252,10 +251,14 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const PictureCache::P
 
 }  // namespace
 
+std::string slot_name(const PictureSlot& slot) {
+  return fmt::format("lane{}.slot{}", slot.lane, slot.slot);
+}
+
 void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const PictureCache::Picture* picture =
-      frame.pictures.get(slot.texture, frame, slot.source, choice_of(frame.state, slot));
+      frame.pictures.get(slot.texture, frame, slot.source, shown_choice(frame.state, slot));
   // What is submitted first has the mouse first, what is drawn last lies on top: so two channels.
   list.ChannelsSplit(2);
   list.ChannelsSetCurrent(1);
@@ -263,7 +266,10 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
   if (edit_choice(frame.ui, slot, edited)) {
     choice_of(frame.state, slot) = edited;
   }
-  if (slot.source != slot.lane) {
+  if (shown_choice(frame.state, slot) != choice_of(frame.state, slot)) {
+    badge(frame.ui, slot.box.x + frame.ui.px(5.0f), slot.box.y + frame.ui.px(28.0f), palette::text,
+          frame.snapshot && frame.snapshot->reference ? "reference" : "there is no reference");
+  } else if (slot.source != slot.lane) {
     badge(frame.ui, slot.box.x + frame.ui.px(5.0f), slot.box.y + frame.ui.px(28.0f),
           lane_color(slot.source), fmt::format("lane {}", slot.source + 1));
   }
@@ -273,10 +279,7 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
                drawn ? picture->view.image.height() : 0);
   draw_well(frame, slot.box, drawn ? picture : nullptr);
   draw_pixels(frame, slot, picture, slot.box);
-  const std::optional<glm::ivec2> pixel =
-      frame.state.hovered ? frame.state.hovered : frame.state.pinned;
-  if (slot.read_out && drawn && pixel && pixel->x < picture->view.image.width() &&
-      pixel->y < picture->view.image.height()) {
+  if (const auto pixel = read_out_pixel(frame); slot.read_out && drawn && pixel) {
     draw_read_out(frame, slot, *pixel);
   }
   list.ChannelsMerge();
@@ -298,19 +301,21 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
     comparison.wipe_at = std::clamp((ImGui::GetIO().MousePos.x - a.box.x) / width, 0.02f, 0.98f);
     line = a.box.x + comparison.wipe_at * width;
   }
-  draw_picture_slot(frame, a);
+  PictureSlot left_of_line = a;
+  left_of_line.read_out = false;
+  draw_picture_slot(frame, left_of_line);
   const PictureCache::Picture* picture =
-      frame.pictures.get(b.texture, frame, b.source, choice_of(frame.state, a));
+      frame.pictures.get(b.texture, frame, b.source, shown_choice(frame.state, a));
   const ScreenRect right{line, a.box.y, a.box.right() - line, a.box.height};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (picture) {
-    const float read_out = frame.state.hovered || frame.state.pinned ? frame.ui.px(36.0f) : 0.0f;
-    ScreenRect clip = right;
-    clip.height -= read_out;
-    list.AddRectFilled({clip.x, clip.y}, {clip.right(), clip.bottom()}, palette::well);
-    PictureSlot shown = a;
-    shown.source = b.source;
-    draw_pixels(frame, shown, picture, clip);
+    list.AddRectFilled({right.x, right.y}, {right.right(), right.bottom()}, palette::well);
+    PictureSlot right_of_line = a;
+    right_of_line.source = b.source;
+    draw_pixels(frame, right_of_line, picture, right);
+  }
+  if (const auto pixel = read_out_pixel(frame); picture && pixel) {
+    draw_wipe_read_out(frame, a, b, *pixel);
   }
   list.AddLine({line, a.box.y}, {line, a.box.bottom()}, IM_COL32(255, 255, 255, lit ? 255 : 200),
                frame.ui.px(lit ? 2.5f : 1.5f));

@@ -15,6 +15,9 @@ struct PictureSlot {
   bool read_out = false;  ///< says the numbers of the pixel under the mouse
 };
 
+/// Under which the window records it.
+std::string slot_name(const PictureSlot& slot);
+
 void draw_picture_slot(LabFrame& frame, const PictureSlot& slot);
 
 /// A and B of the comparison in one slot, with a line between them that can be dragged.

@@ -65,6 +65,18 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
     case ViewKind::error:
       return values.error_channels > 0 ? std::vector{short_number(values.relative_error)}
                                        : std::vector<std::string>{};
+    case ViewKind::reference:
+    case ViewKind::true_error: {
+      if (!snapshot.reference) {
+        return {};
+      }
+      const glm::vec3 truth = snapshot.reference->pixels()[pixel];
+      if (kind == ViewKind::reference) {
+        return lines_of(truth);
+      }
+      const glm::vec3 off = values.radiance - truth;
+      return lines_of(off * off / (truth * truth + 0.01f));
+    }
     case ViewKind::rejected:
       return {fmt::format("{}", values.rejected)};
     case ViewKind::heatmap:

@@ -13,10 +13,8 @@ constexpr ImWchar glyph_ranges[] = {0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x20
                                     0x2030, 0x203A, 0x2070, 0x208E, 0x2190, 0x2199,
                                     0x2200, 0x2265, 0x25A0, 0x25CF, 0};
 
-constexpr const char* inter = "/usr/share/fonts/opentype/inter/";
-constexpr const char* dejavu = "/usr/share/fonts/truetype/dejavu/";
-
-ImFont* add_font(const std::string& inter_name, const std::string& dejavu_name, float size) {
+ImFont* add_font(const std::filesystem::path& inter, const std::filesystem::path& dejavu,
+                 float size) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   ImFontConfig config;
   config.OversampleH = 2;
@@ -24,13 +22,13 @@ ImFont* add_font(const std::string& inter_name, const std::string& dejavu_name, 
   config.PixelSnapH = true;
   ImFont* font = nullptr;
   std::error_code ignored;
-  if (const std::string path = inter + inter_name; std::filesystem::exists(path, ignored)) {
-    font = atlas.AddFontFromFileTTF(path.c_str(), size, &config, glyph_ranges);
+  if (std::filesystem::exists(inter, ignored)) {
+    font = atlas.AddFontFromFileTTF(inter.c_str(), size, &config, glyph_ranges);
   }
-  if (const std::string path = dejavu + dejavu_name; std::filesystem::exists(path, ignored)) {
+  if (std::filesystem::exists(dejavu, ignored)) {
     // Behind Inter it lends the signs that Inter lacks.
     config.MergeMode = font != nullptr;
-    ImFont* const fallback = atlas.AddFontFromFileTTF(path.c_str(), size, &config, glyph_ranges);
+    ImFont* const fallback = atlas.AddFontFromFileTTF(dejavu.c_str(), size, &config, glyph_ranges);
     font = font ? font : fallback;
   }
   return font ? font : atlas.AddFontDefault();
@@ -54,15 +52,22 @@ void Ui::mark(const std::string& name) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high = ImGui::GetItemRectMax();
   widgets[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+  if (ImGui::IsItemActive()) {
+    held = name;
+  }
 }
 
-void set_theme(Ui& ui, float scale) {
+void set_theme(Ui& ui, float scale, const FontFolders& folders) {
   ui.scale = scale;
-  const auto points = [&](float size) { return std::round(size * scale); };
-  ui.body = add_font("Inter-Regular.otf", "DejaVuSans.ttf", points(14.0f));
-  ui.bold = add_font("Inter-SemiBold.otf", "DejaVuSans-Bold.ttf", points(15.0f));
-  ui.small = add_font("Inter-Regular.otf", "DejaVuSans.ttf", points(12.0f));
+  const auto add = [&](const char* inter, const char* dejavu, float size) {
+    return add_font(folders.inter / inter, folders.dejavu / dejavu, std::round(size * scale));
+  };
+  ImGui::GetIO().Fonts->Clear();
+  ui.body = add("Inter-Regular.otf", "DejaVuSans.ttf", 14.0f);
+  ui.bold = add("Inter-SemiBold.otf", "DejaVuSans-Bold.ttf", 15.0f);
+  ui.small = add("Inter-Regular.otf", "DejaVuSans.ttf", 12.0f);
 
+  ImGui::GetStyle() = ImGuiStyle();
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowPadding = {10, 8};

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -40,15 +41,23 @@ struct Ui {
   ImFont* small = nullptr;
   /// Where each widget was drawn last, by name: what a test, or a script, aims at.
   std::map<std::string, ScreenRect> widgets;
+  /// The one among them that the mouse holds; empty if it holds none.
+  std::string held;
 
   float px(float length) const { return length * scale; }
   void mark(const std::string& name);  ///< the last ImGui item
   void mark(const std::string& name, const ScreenRect& rect) { widgets[name] = rect; }
 };
 
-/// Loads Inter, or DejaVu where it is missing, into the current context and sets its style. Once,
-/// before its first frame.
-void set_theme(Ui& ui, float scale);
+/// Where fonts are looked for.
+struct FontFolders {
+  std::filesystem::path inter = "/usr/share/fonts/opentype/inter";
+  std::filesystem::path dejavu = "/usr/share/fonts/truetype/dejavu";
+};
+
+/// Loads Inter, or DejaVu where it is missing, into the current context and sets its style.
+/// Between two frames; whoever draws must forget the fonts of before.
+void set_theme(Ui& ui, float scale, const FontFolders& folders = {});
 
 /// A scale of text and controls that suits a window whose monitor says nothing.
 float natural_scale(int width, int height);

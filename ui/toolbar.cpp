@@ -1,15 +1,15 @@
 #include "ui/toolbar.h"
 
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "renderer/scene/load_scene.h"
 #include "ui/imgui_compat.h"
+#include "ui/lab_layout.h"
+#include "ui/scene_menu.h"
 #include "ui/view_controls.h"
 #include "ui/widgets.h"
 
@@ -29,46 +29,6 @@ struct Item {
 
 float combo_width(const Ui& ui, const std::string& text) {
   return text_width(ui.body, text) + ui.px(20.0f) + ImGui::GetFrameHeight();
-}
-
-std::string scene_label(const LabState& state) {
-  return state.trace_scene() ? state.trace_scene()->scene().name
-                             : std::filesystem::path(state.scene).stem().string();
-}
-
-void draw_scene(LabFrame& frame, float width) {
-  LabState& state = frame.state;
-  Ui& ui = frame.ui;
-  combo(ui, "scene", scene_label(state), width, [&] {
-    for (const std::string& name : builtin_scenes()) {
-      if (combo_row(ui, "scene." + name, name, name == scene_label(state))) {
-        frame.orders.load_scene = name;
-      }
-    }
-    ImGui::Separator();
-    ImGui::TextUnformatted("a Mitsuba 3 file");
-    ImGui::SetNextItemWidth(ui.px(360.0f));
-    const bool entered =
-        ImGui::InputText("##path", &state.path_field, ImGuiInputTextFlags_EnterReturnsTrue);
-    ui.mark("scene.path");
-    ImGui::SameLine();
-    const bool pressed = ImGui::Button("Load");
-    ui.mark("scene.load");
-    if ((entered || pressed) && !state.path_field.empty()) {
-      frame.orders.load_scene = state.path_field;
-      ImGui::CloseCurrentPopup();
-    }
-    ImGui::TextDisabled("or drop it on the window");
-    return false;
-  });
-  std::string tip = "The scene";
-  if (const TraceScene* scene = state.trace_scene()) {
-    tip = scene->scene().path.string();
-    for (const std::string& warning : scene->scene().warnings) {
-      tip += "\n" + warning;
-    }
-  }
-  tooltip(ui, tip);
 }
 
 void draw_integrator(LabFrame& frame, float width) {
@@ -266,8 +226,8 @@ std::vector<Item> items(const LabFrame& frame, bool compact) {
       {combo_width(ui, compact ? std::string(tone_map_row(state.view.tone_map).label) : "Reinhard"),
        draw_tone_map},
       {combo_width(ui, compact ? heat_label(state.view.heat) : "heat: report"), draw_heat},
-      {combo_width(ui, compact ? layout_label(state.layout) : "one large"), draw_layout, false,
-       true},
+      {combo_width(ui, compact ? std::string(layout_row(state.layout).label) : "one large"),
+       draw_layout, false, true},
       {text_width(ui.body, "Export…") + ui.px(22.0f), draw_export},
       {ui.px(26.0f), draw_help_button},
   };

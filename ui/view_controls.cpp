@@ -6,6 +6,7 @@
 #include <array>
 
 #include "renderer/image/tone_map.h"
+#include "ui/lab_layout.h"
 #include "ui/widgets.h"
 
 namespace quartet {
@@ -61,28 +62,44 @@ void draw_heat(LabFrame& frame, float width) {
 
 namespace {
 
-constexpr std::array layout_names{"columns", "2 × 2", "one large"};
+std::string percent_text(float scale) {
+  return fmt::format("{:.0f} %", 100.0f * scale);
+}
+
+/// The scale of text and controls: the display's own or one of the usual.
+bool edit_scale(LabFrame& frame) {
+  constexpr std::array scales{0.75f, 1.0f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f, 3.0f};
+  float& scale = frame.state.ui_scale;
+  ImGui::TextDisabled("text and controls");
+  bool changed = combo_row(frame.ui, "layout.scale.0", "as the display says", scale == 0.0f);
+  scale = changed ? 0.0f : scale;
+  for (const float each : scales) {
+    if (combo_row(frame.ui, fmt::format("layout.scale.{:g}", each), percent_text(each),
+                  scale == each)) {
+      scale = each;
+      changed = true;
+    }
+  }
+  return changed;
+}
 
 }  // namespace
 
-std::string layout_label(LabLayout layout) {
-  return layout_names[std::size_t(layout)];
-}
-
 void draw_layout(LabFrame& frame, float width) {
   LabLayout& layout = frame.state.layout;
-  combo(frame.ui, "layout", layout_names[std::size_t(layout)], width, [&] {
+  combo(frame.ui, "layout", std::string(layout_row(layout).label), width, [&] {
     bool changed = false;
-    for (std::size_t i = 0; i < layout_names.size(); ++i) {
-      if (combo_row(frame.ui, fmt::format("layout.{}", i), layout_names[i],
-                    std::size_t(layout) == i)) {
-        layout = LabLayout(i);
+    for (const LayoutRow& row : layouts()) {
+      if (combo_row(frame.ui, fmt::format("layout.{}", row.id), std::string(row.label),
+                    layout == row.key)) {
+        layout = row.key;
         changed = true;
       }
     }
-    return changed;
+    ImGui::Separator();
+    return edit_scale(frame) || changed;
   });
-  tooltip(frame.ui, "Layout  (L)");
+  tooltip(frame.ui, "Layout  (L), and the size of text and controls");
 }
 
 }  // namespace quartet

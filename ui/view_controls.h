@@ -15,6 +15,5 @@ void draw_layout(LabFrame& frame, float width);
 
 /// What the controls say of a setting.
 std::string heat_label(HeatRange heat);
-std::string layout_label(LabLayout layout);
 
 }  // namespace quartet

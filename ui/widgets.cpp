@@ -59,6 +59,12 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 origin, float size, ImU32 col
       fill(list, origin, size, color, {{0.08f, 0.1f}, {0.7f, 0.5f}, {0.08f, 0.9f}});
       bar(0.78f, 0.92f);
       break;
+    case Icon::fold:
+      fill(list, origin, size, color, {{0.1f, 0.25f}, {0.9f, 0.25f}, {0.5f, 0.75f}});
+      break;
+    case Icon::unfold:
+      fill(list, origin, size, color, {{0.1f, 0.75f}, {0.5f, 0.25f}, {0.9f, 0.75f}});
+      break;
     case Icon::restart:
     case Icon::reset: {
       const ImVec2 center(origin.x + 0.5f * size, origin.y + 0.53f * size);
@@ -190,13 +196,13 @@ float text_width(ImFont* font, const std::string& text) {
   return font->CalcTextSizeA(font_size(font), FLT_MAX, 0.0f, text.c_str()).x;
 }
 
-std::string fitting_text(ImFont* font, std::initializer_list<std::string> texts, float width) {
+std::string fitting_text(ImFont* font, const std::vector<std::string>& texts, float width) {
   for (const std::string& text : texts) {
     if (text_width(font, text) <= width) {
       return text;
     }
   }
-  return *(texts.end() - 1);
+  return texts.back();
 }
 
 void text_at(ImFont* font, float x, float y, ImU32 color, const std::string& text) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "ui/theme.h"
 
@@ -26,7 +26,7 @@ bool slider(Ui& ui, const std::string& name, float& value, const SliderRange& ra
 bool number_field(Ui& ui, const std::string& name, float& value, float low, float high,
                   const char* format, float width);
 
-enum class Icon { to_start, back, pause, play, forward, restart, reset };
+enum class Icon { to_start, back, pause, play, forward, restart, reset, fold, unfold };
 
 bool icon_button(Ui& ui, const std::string& name, Icon icon, bool enabled = true,
                  float width = 0.0f);
@@ -48,7 +48,7 @@ void tooltip(const Ui& ui, const std::string& text);
 float leading_label(const Ui& ui, const std::string& text);
 
 /// The first of the texts that is no wider than `width`; the last where none is.
-std::string fitting_text(ImFont* font, std::initializer_list<std::string> texts, float width);
+std::string fitting_text(ImFont* font, const std::vector<std::string>& texts, float width);
 float text_width(ImFont* font, const std::string& text);
 
 /// Text at a place, without an item.

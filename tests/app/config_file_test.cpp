@@ -17,6 +17,10 @@ TEST(ConfigFile, KeepsWhatTheWindowRemembers) {
   state.view.heat = HeatRange::report;
   state.view.tone_map = ToneMap::filmic;
   state.ui_scale = 1.25f;
+  state.request.metric = MetricId::flip;
+  state.dock.open = false;
+  state.dock.height = 240.0f;
+  state.dock.effort = Effort::mean_spp;
   state.slots[2][1] = {ViewKind::difference, 3};
   save_config(path, state, {1920, 1080});
 
@@ -30,6 +34,10 @@ TEST(ConfigFile, KeepsWhatTheWindowRemembers) {
   EXPECT_EQ(read.view, state.view);
   EXPECT_EQ(read.ui_scale, state.ui_scale);
   EXPECT_EQ(read.slots, state.slots);
+  EXPECT_EQ(read.request.metric, state.request.metric);
+  EXPECT_EQ(read.dock.open, state.dock.open);
+  EXPECT_EQ(read.dock.height, state.dock.height);
+  EXPECT_EQ(read.dock.effort, state.dock.effort);
 }
 
 TEST(ConfigFile, ABrokenOneIsNamedAndNotUsed) {

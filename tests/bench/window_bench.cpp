@@ -36,10 +36,10 @@ void window_frame(benchmark::State& state, bool fresh) {
   Offscreen offscreen(width, height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(width), float(height)};
-  LabDriver driver(std::move(lab), 1.0f, offscreen.gl(), [] {});
+  LabDriver driver(std::move(lab), offscreen.gl(), [] {});
   const auto frame = [&] {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
-    screen.begin_frame();
+    driver.begin_frame(screen, 1.0f);
     driver.draw(0.0);
     screen.end_frame(offscreen.gl(), width, height);
     offscreen.gl().finish();

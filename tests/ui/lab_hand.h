@@ -19,7 +19,7 @@ namespace quartet {
 class LabHand {
  public:
   explicit LabHand(int width = 1600, int height = 1000)
-      : offscreen_(width, height), driver_(small_lab(), 1.0f, offscreen_.gl(), [] {}) {
+      : offscreen_(width, height), driver_(small_lab(), offscreen_.gl(), [] {}) {
     ImGui::GetIO().DisplaySize = {float(width), float(height)};
     add_mouse_position(-100.0f, -100.0f);
     settle();
@@ -45,7 +45,7 @@ class LabHand {
   void frame() {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
     seconds_ += 1.0 / 60.0;
-    screen_.begin_frame();
+    driver_.begin_frame(screen_, 1.0f);
     driver_.draw(seconds_);
     screen_.end_frame(offscreen_.gl(), offscreen_.width(), offscreen_.height());
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "renderer/scene/synthetic.h"
 #include "tests/image/temp_folder.h"
 #include "tests/ui/lab_hand.h"
 #include "ui/lane_header.h"
@@ -56,6 +57,55 @@ TEST(LabWindow, DraggingAThresholdLineReplaysItsLaneAlone) {
     EXPECT_GT(hand.snapshot().lanes[lane].history.back().refined, refined);
     expect_only(lane, before, heatmaps(hand));
   }
+}
+
+/// The axis of a lane's errors, as what is under the mouse at two places of the plot says.
+TEST(LabWindow, TheAxisOfErrorsStandsStillUnderADrag) {
+  LabHand hand;
+  const ScreenRect plot = hand.rect("lane1.errors");
+  const ScreenRect marker = hand.rect("lane1.errors.marker0");
+  hand.move(marker.center_x(), plot.center_y());
+  hand.press(true);
+  EXPECT_EQ(hand.window().ui().held, "lane1.errors");
+  const auto threshold_at = [&](float x) {
+    add_mouse_position(x, plot.center_y());
+    hand.frames(2);
+    return hand.policy(1).thresholds[0];
+  };
+  // Far to the left nearly all pixels are refined and the errors shrink; then back.
+  const float start = threshold_at(marker.center_x() + 6.0f);
+  const float low = threshold_at(plot.x + 2.0f);
+  hand.settle();
+  EXPECT_LT(low, 0.1f * start);
+  EXPECT_EQ(threshold_at(plot.x + 2.0f), low);
+  EXPECT_EQ(threshold_at(marker.center_x() + 6.0f), start);
+  ASSERT_TRUE(hand.state().held_axis);
+  EXPECT_EQ(hand.state().held_axis->lane, 1u);
+  hand.press(false);
+  hand.frames(2);
+  EXPECT_FALSE(hand.state().held_axis);
+}
+
+TEST(LabWindow, TheAxisOfErrorsFollowsASliderOutwardsAndComesBackAtItsEnd) {
+  LabHand hand;
+  const ScreenRect slider = hand.rect("lane2.threshold0");
+  const DecadeRange usual = error_decades(hand.snapshot().lanes[2], hand.policy(2).thresholds);
+  hand.move(slider.center_x(), slider.center_y());
+  hand.press(true);
+  const auto pull = [&](float x) {
+    add_mouse_position(x, slider.center_y());
+    hand.settle();
+    return hand.state().held_axis ? hand.state().held_axis->decades : DecadeRange{};
+  };
+  const DecadeRange wide = pull(slider.right() - 8.0f);
+  EXPECT_LE(wide.first, usual.first);
+  EXPECT_GE(wide.last, usual.last);
+  EXPECT_GT(std::pow(10.0, wide.last), double(hand.policy(2).thresholds[0]));
+  const DecadeRange back = pull(slider.center_x());
+  EXPECT_EQ(back.with(wide), back) << "it shrinks only once the mouse lets go";
+  hand.press(false);
+  hand.frames(2);
+  EXPECT_FALSE(hand.state().held_axis);
 }
 
 TEST(LabWindow, EveryThresholdOfContrastHasItsLineAndSlider) {
@@ -237,13 +287,23 @@ TEST(LabWindow, LayoutsShowTheirLanes) {
   EXPECT_NE(hand.pixels("lane2.slot0"), a);
   const float at = hand.state().comparison.wipe_at;
   hand.drag("wipe", -120.0f);
+  // The read-out says the numbers of both lanes: one line in the colour of each.
+  const ScreenRect slot = hand.rect("lane2.slot0");
+  hand.move(slot.x + 0.3f * slot.width, slot.center_y());
+  const auto strip = hand.pixels("lane2.slot0.read_out");
+  for (const std::size_t lane : {hand.state().comparison.lane, hand.state().comparison.other}) {
+    const ImU32 color = lane_color(lane);
+    const Rgba8 wanted{std::uint8_t(color), std::uint8_t(color >> 8), std::uint8_t(color >> 16)};
+    EXPECT_GT(std::ranges::count(strip, wanted), 20) << "lane " << lane + 1;
+  }
+  hand.move(-100.0f, -100.0f);
   EXPECT_LT(hand.state().comparison.wipe_at, at);
   const Comparison unflipped = hand.state().comparison;
   EXPECT_EQ(unflipped.lane, 2u);
   hand.key('a');
   EXPECT_EQ(hand.state().comparison.lane, unflipped.other);
   EXPECT_EQ(hand.state().comparison.other, 2u);
-  hand.choose("layout", "0");
+  hand.choose("layout", "columns");
   hand.key(key_escape);
 }
 
@@ -280,6 +340,30 @@ TEST(LabWindow, ABrokenSceneIsNamedAndTheOldOneStays) {
   EXPECT_EQ(hand.snapshot().frame, 5u);
   hand.click("message");
   EXPECT_EQ(hand.window().message().kind, Message::Kind::none);
+}
+
+TEST(LabWindow, AFailureCaseComesWithItsViewAndSaysWhatToLookAt) {
+  LabHand hand;
+  const FailureCase& failure = find_failure_case("dim-noise");
+  hand.choose("scene", "failure." + std::string(failure.id));
+  for (int i = 0; i < 2000 && hand.state().failure != &failure; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hand.frame();
+  }
+  ASSERT_EQ(hand.state().failure, &failure);
+  EXPECT_EQ(hand.state().scene, failure.scene);
+  EXPECT_EQ(hand.state().slots[2][1].kind, failure.view);
+  EXPECT_EQ(hand.state().pan_zoom.zoom, failure.zoom);
+  EXPECT_EQ(hand.window().message().text, failure.watch);
+  // Another scene is no failure case any more.
+  hand.choose("scene", "synthetic:" + std::string(synthetics().front().id));
+  for (int i = 0; i < 2000 && hand.state().failure; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hand.frame();
+  }
+  EXPECT_EQ(hand.state().failure, nullptr);
+  hand.settle();
+  EXPECT_EQ(hand.driver().error(), "");
 }
 
 TEST(LabWindow, CameraTurnsAndComesHome) {
@@ -335,6 +419,21 @@ TEST(LabWindow, ExportSaysWhereAndHowToRepeatIt) {
   const std::string command = bytes_of(folder / "out" / "command.txt");
   EXPECT_NE(command.find("--size 96x54"), std::string::npos) << command;
   EXPECT_NE(command.find("--frames 5"), std::string::npos) << command;
+}
+
+TEST(LabWindow, TheScaleOfTextAndControlsChangesWhileItRuns) {
+  LabHand hand;
+  const float slider = hand.rect("lane0.threshold0").height;
+  const auto before = hand.screen();
+  hand.choose("layout", "scale.1.5");
+  EXPECT_EQ(hand.state().ui_scale, 1.5f);
+  EXPECT_EQ(hand.window().ui().scale, 1.5f);
+  EXPECT_NEAR(hand.rect("lane0.threshold0").height, 1.5f * slider, 3.0f);
+  hand.choose("layout", "scale.0");
+  hand.move(-100.0f, -100.0f);
+  EXPECT_EQ(hand.window().ui().scale, 1.0f) << "as the display says";
+  EXPECT_TRUE(std::ranges::equal(hand.screen().pixels(), before.pixels()))
+      << "the fonts are the ones of before";
 }
 
 TEST(LabWindow, NothingLeavesTheWindow) {
