@@ -86,6 +86,10 @@ void print_lights(const Scene& scene) {
                  kind_of(shape), surface_area(shape), color_text(scene, shape.radiance));
     }
   }
+  for (const PointLight& light : scene.points) {
+    fmt::print("  {:<18} at {}, intensity {}\n", "(point)", numbers(light.position),
+               numbers(light.intensity));
+  }
   if (scene.environment != glm::vec3(0.0f)) {
     fmt::print("  {:<18} from all around, radiance {}\n", "(constant)", numbers(scene.environment));
   }
@@ -154,6 +158,11 @@ ordered_json json_of(const Scene& scene) {
       entry["radiance"] = vector_json(average_color(scene, shape.radiance));
     }
     json["shapes"].push_back(std::move(entry));
+  }
+  json["points"] = ordered_json::array();
+  for (const PointLight& light : scene.points) {
+    json["points"].push_back(
+        {{"position", vector_json(light.position)}, {"intensity", vector_json(light.intensity)}});
   }
   json["environment"] = vector_json(scene.environment);
   json["warnings"] = scene.warnings;

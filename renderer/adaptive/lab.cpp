@@ -236,10 +236,9 @@ SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
     };
   }
   const CameraRays camera(settings.camera, settings.width, settings.height);
-  const auto trace = integrator(settings.integrator).trace;
-  return [scene = std::move(scene), settings, camera, trace](int x, int y, std::uint32_t first,
-                                                             std::span<glm::vec3> radiance) {
-    trace(*scene, settings, camera, x, y, first, radiance);
+  const auto trace = integrator(settings.integrator).trace_jobs;
+  return [scene = std::move(scene), settings, camera, trace](std::span<SampleJob> jobs) {
+    trace(*scene, settings, camera, jobs);
   };
 }
 

@@ -220,18 +220,19 @@ bool LabWorker::tracing_gives_way() const {
          Clock::now() >= patience_ends_;
 }
 
-/// The tracer, asked between pixels whether it is still wanted.
+/// The tracer, asked between batches whether it is still wanted.
 SampleSource LabWorker::watched(SampleSource trace) {
-  return [this, trace = std::move(trace)](int x, int y, std::uint32_t first,
-                                          std::span<glm::vec3> radiance) {
+  return [this, trace = std::move(trace)](std::span<SampleJob> jobs) {
     if (mailbox_.closed()) {
       throw Closed();
     }
     if (tracing_gives_way()) {
       stop_.request_stop();
     }
-    trace(x, y, first, radiance);
-    board_.meter.add(radiance.size());
+    trace(jobs);
+    for (const SampleJob& job : jobs) {
+      board_.meter.add(job.radiance.size());
+    }
     if (std::this_thread::get_id() == thread_) {
       board_.status.activity = Activity::tracing;
       report_progress();

@@ -70,10 +70,14 @@ class Hasher {
     std::visit([this](const auto& kind) { add(kind); }, geometry);
     add_all(material, emits, radiance);
   }
+  void add(const PointLight& light) {
+    const auto& [position, intensity] = light;
+    add_all(position, intensity);
+  }
   void add(const Scene& scene) {
-    const auto& [name, path, shapes, materials, textures, environment, camera, width, height,
-                 max_depth, warnings] = scene;
-    add_all(shapes, materials, textures, environment);
+    const auto& [name, path, shapes, materials, textures, points, environment, camera, width,
+                 height, max_depth, warnings] = scene;
+    add_all(shapes, materials, textures, points, environment);
     if (const Synthetic* row = synthetic_of(scene)) {
       for (const char letter : row->id) {
         add(int(letter));

@@ -162,7 +162,7 @@ SampleWorld sample_world(std::shared_ptr<const TraceScene> scene, const RenderSe
 LabOptions lab_options(const SampleWorld& world, std::uint64_t seed) {
   LabOptions options = world.lab;
   options.reference = world.reference;
-  options.pilot_source = world.pilot ? world.pilot(seed) : nullptr;
+  options.pilot_source = world.pilot ? world.pilot(seed) : SampleSource();
   return options;
 }
 

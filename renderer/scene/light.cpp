@@ -29,6 +29,22 @@ void constant(SceneBuilder& builder, Element& element) {
   element.ignore({"to_world"});  // the same from every direction
 }
 
+void point(SceneBuilder& builder, Element& element) {
+  PointLight light;
+  light.intensity =
+      read_plain_color(builder, element, "intensity", glm::vec3(1.0f), ColorRange::any);
+  if (element.has("position") && element.has("to_world")) {
+    element.fail("a light with position and to_world, expected one of them");
+  }
+  light.position = element.has("to_world") ? glm::vec3(element.transform("to_world")[3])
+                                           : glm::vec3(element.point("position", glm::dvec3(0.0)));
+  if (light.intensity == glm::vec3(0.0f)) {
+    element.warn("a light with intensity 0 is left out");
+    return;
+  }
+  builder.scene.points.push_back(light);
+}
+
 template <typename... Arguments>
 struct LightType {
   std::string_view name;
@@ -36,7 +52,8 @@ struct LightType {
 };
 
 constexpr std::array shape_lights = {LightType<Shape&>{"area", area}};
-constexpr std::array scene_lights = {LightType<>{"constant", constant}};
+constexpr std::array scene_lights = {LightType<>{"constant", constant},
+                                     LightType<>{"point", point}};
 
 template <typename Table, typename... Arguments>
 void read_light(SceneBuilder& builder, pugi::xml_node node, const Table& table,

@@ -81,13 +81,14 @@ Scene load_scene(const std::filesystem::path& path, const SceneParameters& param
     type->read(builder, part);
   }
   if (!has_camera) builder.xml.fail(root, "no camera, expected <sensor type=\"perspective\">");
-  const bool lit = scene.environment != glm::vec3(0.0f) ||
+  const bool lit = scene.environment != glm::vec3(0.0f) || !scene.points.empty() ||
                    std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                [](const Shape& shape) { return shape.emits; });
   if (!lit) {
-    builder.xml.fail(root,
-                     "no light, expected an <emitter type=\"area\"> in a shape or an "
-                     "<emitter type=\"constant\">");
+    builder.xml.fail(
+        root,
+        "no light, expected an <emitter type=\"area\"> in a shape, or an <emitter> of type "
+        "\"constant\" or \"point\"");
   }
   return std::move(scene);
 }

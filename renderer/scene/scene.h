@@ -79,6 +79,12 @@ struct Shape {
   int line = 0;    ///< in the scene file, for messages
 };
 
+/// Shines alike in all directions from a point. No ray meets it.
+struct PointLight {
+  glm::vec3 position{0.0f};
+  glm::vec3 intensity{1.0f};  ///< power per solid angle: radiance times an area
+};
+
 /// Which side of the picture `Camera::fov` spans.
 enum class FovAxis { x, y, diagonal, smaller, larger };
 
@@ -101,6 +107,7 @@ struct Scene {
   std::vector<Shape> shapes;
   std::vector<Material> materials;
   std::vector<Checkerboard> textures;
+  std::vector<PointLight> points;
   glm::vec3 environment{0.0f};  ///< constant radiance from every direction that meets no shape
   Camera camera;
   int width = 768;

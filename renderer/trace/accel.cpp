@@ -63,19 +63,38 @@ RTCGeometry make_geometry(RTCDevice device, const Disk& disk) {
   return geometry;
 }
 
-void set_ray(const Ray& ray, RTCRay& r) {
-  r.org_x = ray.origin.x;
-  r.org_y = ray.origin.y;
-  r.org_z = ray.origin.z;
-  r.tnear = 0.0f;
-  r.dir_x = ray.direction.x;
-  r.dir_y = ray.direction.y;
-  r.dir_z = ray.direction.z;
-  r.time = 0.0f;
-  r.tfar = ray.t_max;
-  r.mask = ~0u;
-  r.id = 0;
-  r.flags = 0;
+void store(float* to, Float8 values) {
+  _mm256_store_ps(to, __m256(values));
+}
+void store(void* to, Int8 values) {
+  _mm256_store_si256(static_cast<__m256i*>(to), __m256i(values));
+}
+Float8 load(const float* from) {
+  return Float8(_mm256_load_ps(from));
+}
+Word8 load(const unsigned* from) {
+  return Word8(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)));
+}
+
+void set_rays(const Ray8& rays, RTCRay8& r) {
+  store(r.org_x, rays.origin.x);
+  store(r.org_y, rays.origin.y);
+  store(r.org_z, rays.origin.z);
+  store(r.tnear, Float8{});
+  store(r.dir_x, rays.direction.x);
+  store(r.dir_y, rays.direction.y);
+  store(r.dir_z, rays.direction.z);
+  store(r.time, Float8{});
+  store(r.tfar, rays.t_max);
+  store(r.mask, ~Int8{});
+  store(r.id, Int8{});
+  store(r.flags, Int8{});
+}
+
+/// One ray alone in a packet.
+constexpr Mask8 first_lane{-1};
+Ray8 packet_of(const Ray& ray) {
+  return {splat(ray.origin), splat(ray.direction), splat(ray.t_max)};
 }
 
 }  // namespace
@@ -110,41 +129,54 @@ Accel::Accel(const Scene& scene) {
   }
 }
 
-bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
-  RTCRayHit query;
-  set_ray(ray, query.ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+Hit8 Accel::closest_hit(const Ray8& rays, Mask8 active) const {
+  RTCRayHit8 query;
+  set_rays(rays, query.ray);
+  store(query.hit.geomID, ~Int8{});  // RTC_INVALID_GEOMETRY_ID
+  store(query.hit.instID[0], ~Int8{});
 #if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(scene_.get(), &query);
+  rtcIntersect8(reinterpret_cast<const int*>(&active), scene_.get(), &query);
 #else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_.get(), &context, &query);
+  rtcIntersect8(reinterpret_cast<const int*>(&active), scene_.get(), &context, &query);
 #endif
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-    return false;
+  const Word8 shape = load(query.hit.geomID);
+  return {.met = active & (shape != RTC_INVALID_GEOMETRY_ID),
+          .t = load(query.ray.tfar),
+          .u = load(query.hit.u),
+          .v = load(query.hit.v),
+          .shape = shape,
+          .primitive = load(query.hit.primID)};
+}
+
+Mask8 Accel::occluded(const Ray8& rays, Mask8 active) const {
+  // Eight together Embree traverses as one packet, with boxes that round otherwise: a ray along the
+  // very edge of a wall may then miss it. Fewer it traverses one by one.
+  constexpr Mask8 half{-1, -1, -1, -1};
+  if (lane_bits(~active) == 0) {
+    return occluded(rays, half) | occluded(rays, ~half);
   }
-  hit.t = query.ray.tfar;
-  hit.normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
-  hit.u = query.hit.u;
-  hit.v = query.hit.v;
-  hit.shape = query.hit.geomID;
-  hit.primitive = query.hit.primID;
-  return true;
+  RTCRay8 query;
+  set_rays(rays, query);
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded8(reinterpret_cast<const int*>(&active), scene_.get(), &query);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(reinterpret_cast<const int*>(&active), scene_.get(), &context, &query);
+#endif
+  return active & (load(query.tfar) < 0.0f);
+}
+
+bool Accel::closest_hit(const Ray& ray, Hit& hit) const {
+  const Hit8 hits = closest_hit(packet_of(ray), first_lane);
+  hit = {hits.t[0], hits.u[0], hits.v[0], hits.shape[0], hits.primitive[0]};
+  return any(hits.met);
 }
 
 bool Accel::occluded(const Ray& ray) const {
-  RTCRay query;
-  set_ray(ray, query);
-#if RTC_VERSION_MAJOR >= 4
-  rtcOccluded1(scene_.get(), &query);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_.get(), &context, &query);
-#endif
-  return query.tfar < 0.0f;
+  return any(occluded(packet_of(ray), first_lane));
 }
 
 }  // namespace quartet

@@ -6,28 +6,42 @@
 #include <memory>
 
 #include "renderer/scene/scene.h"
+#include "renderer/trace/wide.h"
 
 struct RTCSceneTy;
 
 namespace quartet {
 
-struct Ray {
-  glm::vec3 origin;
-  glm::vec3 direction;  ///< unit length
-  float t_max = std::numeric_limits<float>::infinity();
+template <class F>
+struct RayOf {
+  Vec3<F> origin;
+  Vec3<F> direction;  ///< unit length
+  F t_max = std::numeric_limits<float>::infinity() - F{};
 };
+using Ray = RayOf<float>;
+using Ray8 = RayOf<Float8>;
 
 struct Hit {
   float t;                  ///< distance along the ray
-  glm::vec3 normal;         ///< geometric, not normalised; the front side of the shape
   float u, v;               ///< barycentric coordinates of triangle vertices 1 and 2
   std::uint32_t shape;      ///< index into Scene::shapes
   std::uint32_t primitive;  ///< triangle of the mesh, else 0
 };
 
+/// The same of eight rays, in the lanes that met something.
+struct Hit8 {
+  Mask8 met;
+  Float8 t, u, v;
+  Word8 shape, primitive;
+};
+
 /// The shapes of a scene in an Embree hierarchy: the only file that knows Embree (3 or 4). Safe to
-/// use from many threads. Single rays, because bounces are incoherent and because a ray must meet
-/// the same surface whatever other rays are traced with it: packets differ in the last bit.
+/// use from many threads.
+///
+/// Rays go to Embree in packets of eight, single ones too. What a ray of a packet meets does not
+/// depend, to the bit, on the other rays or on which there are (tests/trace/accel_test.cpp); but
+/// it is not always what Embree's own single rays meet, which differ from packets in the last bits
+/// of spheres.
 class Accel {
  public:
   /// Copies what it needs. Throws std::runtime_error if Embree refuses (out of memory).
@@ -37,6 +51,13 @@ class Accel {
   bool closest_hit(const Ray& ray, Hit& hit) const;
   /// Whether anything lies within (0, t_max).
   bool occluded(const Ray& ray) const;
+
+  /// The same for eight rays; only the lanes of `active` are looked at.
+  Hit8 closest_hit(const Ray8& rays, Mask8 active) const;
+  Mask8 occluded(const Ray8& rays, Mask8 active) const;
+
+  /// For what wants to measure Embree itself.
+  RTCSceneTy* embree_scene() const { return scene_.get(); }
 
   glm::vec3 bounds_min() const { return bounds_min_; }
   glm::vec3 bounds_max() const { return bounds_max_; }

@@ -1,6 +1,6 @@
 #include "renderer/trace/camera_rays.h"
 
-#include "renderer/trace/frame.h"
+#include <cmath>
 
 namespace quartet {
 namespace {
@@ -36,19 +36,6 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
   dx_ = camera.right * (2.0f * half_x / float(width));
   dy_ = camera.up * (-2.0f * half_y / float(height));
   top_left_ = camera.forward - half_x * camera.right + half_y * camera.up;
-}
-
-Ray CameraRays::ray(int x, int y, const Sampler::Draws& draws) const {
-  const glm::vec3 on_plane = top_left_ + (float(x) + draws[0]) * dx_ + (float(y) + draws[1]) * dy_;
-  Ray ray{origin_, on_plane};
-  if (lens_x_ != glm::vec3(0.0f)) {
-    const glm::vec2 lens = square_to_disk(draws[2], draws[3]);
-    const glm::vec3 shift = lens.x * lens_x_ + lens.y * lens_y_;
-    ray.origin += shift;
-    ray.direction = focus_distance_ * on_plane - shift;
-  }
-  ray.direction = glm::normalize(ray.direction);
-  return ray;
 }
 
 }  // namespace quartet

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "renderer/trace/camera_rays.h"
+#include "renderer/trace/sample_source.h"
 #include "renderer/trace/trace_scene.h"
 
 namespace quartet {
@@ -33,9 +34,16 @@ struct Integrator {
   std::string_view id;     ///< on the command line and in files
   std::string_view label;  ///< for people
   std::string_view description;
+  /// Makes what the jobs ask for; their work is in rays.
+  void (*trace_jobs)(const TraceScene& scene, const RenderSettings& settings,
+                     const CameraRays& camera, std::span<SampleJob> jobs);
+
   /// Writes the radiance of samples first, first + 1, … of pixel (x, y), counted from the top left.
-  void (*trace)(const TraceScene& scene, const RenderSettings& settings, const CameraRays& camera,
-                int x, int y, std::uint32_t first, std::span<glm::vec3> radiance);
+  void trace(const TraceScene& scene, const RenderSettings& settings, const CameraRays& camera,
+             int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) const {
+    SampleJob job{x, y, first, radiance};
+    trace_jobs(scene, settings, camera, {&job, 1});
+  }
 };
 
 std::span<const Integrator> integrators();

@@ -22,6 +22,14 @@ float one_minus_cos_cap(float distance2, float radius) {
   return sin2 < 1e-3f ? 0.5f * sin2 * (1.0f + 0.25f * sin2) : 1.0f - std::sqrt(1.0f - sin2);
 }
 
+/// The unit square onto barycentric coordinates. Folding the square keeps the stratification better
+/// than the square root: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+template <class F>
+Vec2<F> square_to_triangle(F u, F v) {
+  const auto upper = v > u;
+  return {upper ? 0.5f * u : u - 0.5f * v, upper ? v - 0.5f * u : 0.5f * v};
+}
+
 // A shadow ray stops short of the light by more than the rounding error of both ends.
 constexpr float short_of_light = 1.0f - 1e-4f;
 
@@ -38,14 +46,21 @@ Lights::Lights(const Scene& scene, glm::vec3 bounds_min, glm::vec3 bounds_max)
   }
   if (luminance(scene.environment) > 0.0f) {
     environment_ = int(lights_.size());
-    lights_.push_back({.kind = Kind::environment});
+    lights_.push_back({.radiance = scene.environment, .kind = Kind::environment});
+  }
+  can_be_met_ = !lights_.empty();
+  for (const PointLight& point : scene.points) {
+    if (luminance(point.intensity) > 0.0f) {
+      lights_.push_back(
+          {.origin = point.position, .radiance = point.intensity, .kind = Kind::point});
+    }
   }
   choose_by_power(bounds_min, bounds_max);
 }
 
 void Lights::add(std::uint32_t shape_index, const Mesh& mesh) {
   const auto flat = [&](Kind kind, std::size_t a, std::size_t b, std::size_t c, std::uint32_t i) {
-    Light light{.kind = kind, .origin = mesh.positions[a], .shape = shape_index, .primitive = i};
+    Light light{.origin = mesh.positions[a], .kind = kind, .shape = shape_index, .primitive = i};
     light.edge1 = mesh.positions[b] - light.origin;
     light.edge2 = mesh.positions[c] - light.origin;
     const glm::vec3 normal = glm::cross(light.edge1, light.edge2);
@@ -64,19 +79,19 @@ void Lights::add(std::uint32_t shape_index, const Mesh& mesh) {
 }
 
 void Lights::add(std::uint32_t shape_index, const Sphere& sphere) {
-  lights_.push_back({.kind = Kind::sphere,
-                     .origin = sphere.center,
+  lights_.push_back({.origin = sphere.center,
+                     .kind = Kind::sphere,
                      .radius = sphere.radius,
                      .area = 4.0f * pi * sphere.radius * sphere.radius,
                      .shape = shape_index});
 }
 
 void Lights::add(std::uint32_t shape_index, const Disk& disk) {
-  lights_.push_back({.kind = Kind::disk,
-                     .origin = disk.center,
+  lights_.push_back({.origin = disk.center,
                      .edge1 = disk.radius * disk.axis_u,
                      .edge2 = disk.radius * disk.axis_v,
                      .normal = disk.normal,
+                     .kind = Kind::disk,
                      .radius = disk.radius,
                      .area = pi * disk.radius * disk.radius,
                      .shape = shape_index});
@@ -87,11 +102,13 @@ void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
   std::vector<double> power;
   double total = 0.0;
   for (const Light& light : lights_) {
-    // A flat or spherical light sends π A L; the environment sends π R² L through the scene from
-    // each of 4π directions.
+    // A flat or spherical light sends π A L, a point 4π I; the environment sends π R² L through the
+    // scene from each of 4π directions.
     const double p =
         light.kind == Kind::environment
             ? 4.0 * pi * pi * scene_radius * scene_radius * luminance(scene_->environment)
+        : light.kind == Kind::point
+            ? 4.0 * pi * luminance(light.radiance)
             : pi * light.area *
                   luminance(average_color(*scene_, scene_->shapes[light.shape].radiance));
     power.push_back(p);
@@ -105,40 +122,66 @@ void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
     // In steps of the random numbers, so that each probability is exactly the share of numbers that
     // choose its light. A light too dim for one step is left to BSDF sampling.
     const float until = float(std::round(sum * 0x1p24) * 0x1p-24);
-    lights_[i].probability = until - before;
+    Light& light = lights_[i];
+    light.probability = until - before;
+    if (light.kind != Kind::environment && light.kind != Kind::point) {
+      const Color& radiance = scene_->shapes[light.shape].radiance;
+      light.textured = radiance.texture != Color::no_texture;
+      light.radiance = radiance.value;
+      light.density = light.probability / light.area;
+    }
     cdf_.push_back(until);
     before = until;
   }
 }
 
+/// The light of a number, and what is left of the number.
+Lights::Choice Lights::choose(float u) const {
+  if (lights_.size() == 1) {
+    return {lights_.data(), u};
+  }
+  const auto chosen = std::size_t(std::upper_bound(cdf_.begin(), cdf_.end() - 1, u) - cdf_.begin());
+  // What is left of u within the light's interval is uniform again, and as well stratified. A
+  // number stands for its whole step: a light of few steps would else be sampled off its centre.
+  const float below = chosen > 0 ? cdf_[chosen - 1] : 0.0f;
+  return {&lights_[chosen],
+          std::clamp((u - below + 0x1p-25f) / (cdf_[chosen] - below), 0.0f, 0x1.fffffep-1f)};
+}
+
 LightSample Lights::sample(glm::vec3 from, float u, float v) const {
-  LightSample s{};
   if (lights_.empty()) {
-    return s;
+    return {};
   }
-  std::size_t chosen = 0;
-  if (lights_.size() > 1) {
-    chosen = std::size_t(std::upper_bound(cdf_.begin(), cdf_.end() - 1, u) - cdf_.begin());
-    // What is left of u within the light's interval is uniform again, and as well stratified. A
-    // number stands for its whole step: a light of few steps would else be sampled off its centre.
-    const float below = chosen > 0 ? cdf_[chosen - 1] : 0.0f;
-    u = std::clamp((u - below + 0x1p-25f) / (cdf_[chosen] - below), 0.0f, 0x1.fffffep-1f);
-  }
-  const Light& light = lights_[chosen];
+  const Choice choice = choose(u);
+  return sample(*choice.light, from, choice.u, v);
+}
+
+LightSample Lights::sample(const Light& light, glm::vec3 from, float u, float v) const {
+  LightSample s{};
   switch (light.kind) {
     case Kind::environment:
       s.direction = square_to_uniform_cap(u, v, -1.0f);
       s.distance = std::numeric_limits<float>::infinity();
       s.radiance = scene_->environment;
-      s.pdf = 1.0f / (4.0f * pi);
+      s.pdf = light.probability * (1.0f / (4.0f * pi));
       break;
     case Kind::sphere:
       sample_sphere(light, from, u, v, s);
       break;
+    case Kind::point: {
+      const glm::vec3 to_light = light.origin - from;
+      const float distance2 = glm::dot(to_light, to_light);
+      const float distance = std::sqrt(distance2);
+      s.direction = to_light * (1.0f / distance);
+      s.distance = distance;
+      s.radiance = light.radiance * (1.0f / distance2);
+      s.pdf = light.probability;
+      s.is_point = true;
+      break;
+    }
     default:
       sample_flat(light, from, u, v, s);
   }
-  s.pdf *= light.probability;
   return s;
 }
 
@@ -146,9 +189,7 @@ void Lights::sample_flat(const Light& light, glm::vec3 from, float u, float v,
                          LightSample& s) const {
   glm::vec2 p(u, v);
   if (light.kind == Kind::triangle) {
-    // Folding the square keeps the stratification better than the square root: Heitz, "A
-    // Low-Distortion Map Between Triangle and Square", 2019.
-    p = v > u ? glm::vec2(0.5f * u, v - 0.5f * u) : glm::vec2(u - 0.5f * v, 0.5f * v);
+    p = square_to_triangle(u, v);
   } else if (light.kind == Kind::disk) {
     p = square_to_disk(u, v);
   }
@@ -161,8 +202,72 @@ void Lights::sample_flat(const Light& light, glm::vec3 from, float u, float v,
   const float distance = std::sqrt(distance2);
   s.direction = to_light * (1.0f / distance);
   s.distance = distance * short_of_light;
-  s.radiance = radiance_at(light, from + to_light, p);
-  s.pdf = distance2 * distance / (facing * light.area);
+  s.radiance = light.textured ? radiance_at(light, from + to_light, p) : light.radiance;
+  s.pdf = distance2 * distance * light.density / facing;
+}
+
+LightSample8 Lights::sample(const Vec8& from, Float8 u, Float8 v, Mask8 wanted) const {
+  LightSample8 s{};
+  if (lights_.empty()) {
+    return s;
+  }
+  // Half a cache line of each light at a time, into columns.
+  const float* rows[simd_lanes];
+  Float8 columns[2 * simd_lanes];
+  Float8 probability{};
+  Int8 kinds{};
+  Mask8 textured{};
+  const Light* lights[simd_lanes];
+  for (int i = 0; i < simd_lanes; ++i) {
+    const Choice choice = choose(u[i]);
+    const Light& light = *choice.light;
+    lights[i] = &light;
+    u[i] = choice.u;
+    probability[i] = light.probability;
+    kinds[i] = int(light.kind);
+    textured[i] = -int(light.textured);
+    rows[i] = &light.origin.x;
+  }
+  transpose(rows, columns);
+  for (const float*& row : rows) {
+    row += simd_lanes;
+  }
+  transpose(rows, columns + simd_lanes);
+  const auto column = [&](int i) { return Vec8{columns[i], columns[i + 1], columns[i + 2]}; };
+
+  s.is_point = kinds == int(Kind::point);
+  const Mask8 triangle = kinds == int(Kind::triangle);
+  const Mask8 disk = kinds == int(Kind::disk);
+  Vec2x8 p{u, v};
+  if (any(triangle)) {
+    const Vec2x8 q = square_to_triangle(u, v);
+    p = {triangle ? q.x : p.x, triangle ? q.y : p.y};
+  }
+  if (any(disk)) {
+    const Vec2x8 q = square_to_disk(u, v);
+    p = {disk ? q.x : p.x, disk ? q.y : p.y};
+  }
+  const Vec8 edges = column(0) + p.x * column(3) + p.y * column(6);
+  const Vec8 to_light = select(s.is_point, column(0), edges) - from;
+  const Float8 distance2 = dot(to_light, to_light);
+  const Float8 facing = -dot(to_light, column(9));
+  const Float8 distance = sqrt(distance2);
+  s.direction = to_light * (1.0f / distance);
+  s.distance = s.is_point ? distance : distance * short_of_light;
+  const Vec8 radiance = column(12);
+  s.radiance = select(facing > 0.0f, radiance, Vec8{});
+  s.radiance = select(s.is_point, radiance * (1.0f / distance2), s.radiance);
+  s.pdf = s.is_point ? probability : distance2 * distance * columns[15] / facing;
+
+  // The others like single samples, one after the other.
+  for_each_lane(wanted & ((kinds >= int(Kind::sphere)) | textured), [&](int i) {
+    const LightSample one = sample(*lights[i], lane_of(from, i), u[i], v[i]);
+    set_lane(s.direction, i, one.direction);
+    s.distance[i] = one.distance;
+    set_lane(s.radiance, i, one.radiance);
+    s.pdf[i] = one.pdf;
+  });
+  return s;
 }
 
 void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
@@ -182,7 +287,7 @@ void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
     if (!(cos_light > 0.0f)) {
       return;  // along the surface, or no way at all
     }
-    s.pdf = length2 / (cos_light * light.area);
+    s.pdf = length2 / cos_light * light.density;
   } else {
     // Uniform over the cone of directions that meet the sphere: Shirley, Wang and Zimmerman, "Monte
     // Carlo Techniques for Direct Lighting Calculations", TOG 15(1), 1996.
@@ -201,7 +306,7 @@ void Lights::sample_sphere(const Light& light, glm::vec3 from, float u, float v,
     // At the silhouette `near` loses half its digits; what matters is that nothing but the light
     // itself lies in the part left out.
     s.distance = std::max(0.0f, near * short_of_light - 1e-3f * light.radius);
-    s.pdf = 1.0f / (2.0f * pi * cap);
+    s.pdf = light.probability / (2.0f * pi * cap);
   }
   const glm::vec3 front = sphere.flip_normals ? -outward : outward;
   if (glm::dot(s.direction, front) >= 0.0f) {
@@ -228,8 +333,7 @@ float Lights::pdf(const Surface& surface, glm::vec3 from, glm::vec3 direction,
     }
   }
   const float cos_light = std::abs(glm::dot(direction, surface.normal));
-  return cos_light > 0.0f ? light->probability * distance * distance / (cos_light * light->area)
-                          : 0.0f;
+  return cos_light > 0.0f ? light->density * distance * distance / cos_light : 0.0f;
 }
 
 float Lights::environment_pdf() const {

@@ -48,15 +48,17 @@ inline constexpr float max_survival = 0.95f;
 
 /// Veach 1997, section 9.2.4, with β = 2. A ratio, because squared densities leave the range of
 /// float for small lights far away.
-inline float power_heuristic(float pdf, float other) {
-  const float ratio = other / pdf;
+template <class F>
+F power_heuristic(F pdf, F other) {
+  const F ratio = other / pdf;
   return 1.0f / (1.0f + ratio * ratio);
 }
 
 /// A direction must lie on the same side of the shading and of the geometric surface, or light
 /// would leak through the triangles of a smooth mesh.
-inline bool leaks(const Surface& surface, glm::vec3 direction) {
-  return glm::dot(direction, surface.normal) * glm::dot(direction, surface.shading_normal) < 0.0f;
+template <class AnySurface, class Vector>
+auto leaks(const AnySurface& surface, const Vector& direction) {
+  return dot(direction, surface.normal) * dot(direction, surface.shading_normal) < 0.0f;
 }
 
 /// Direct light at a vertex, found by sampling a light; its share of the power heuristic.
@@ -80,7 +82,7 @@ glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Fram
   if (scene.accel().occluded(shadow)) {
     return glm::vec3(0.0f);
   }
-  const float weight = power_heuristic(light.pdf, value.pdf);
+  const float weight = light.is_point ? 1.0f : power_heuristic(light.pdf, value.pdf);
   const glm::vec3 reflected = light.radiance * value.f_cos * (weight / light.pdf);
   observer.direct(light, value, weight, reflected);
   return reflected;
@@ -137,6 +139,10 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
                                                   draws, observer);
     }
 
+    if (depth + 1 >= max_depth && !scene.lights().can_be_met()) {
+      observer.ended(PathEnd::depth);
+      return radiance;
+    }
     const BsdfSample next = sample(bsdf, wo, draws[2], draws[3]);
     throughput *= next.weight;
     const glm::vec3 direction = frame.to_world(next.wi);

@@ -13,8 +13,9 @@
 namespace quartet {
 namespace {
 
-// Below this many paths a task costs more to hand out than it gains.
-constexpr std::size_t grain_pixels = 64;
+// Samples asked for at a time. Far fewer, and a source that traces several paths at once spends its
+// time waiting for the last ones; many more, and it is long before a pass can be stopped.
+constexpr std::size_t batch_samples = 1024;
 // The same for looking at counts.
 constexpr std::size_t grain_checks = 1 << 15;
 
@@ -121,9 +122,14 @@ void SampleStore::clear(std::size_t pixel) {
   ends_[pixel] = 0;
 }
 
-std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32_t> begin,
-                                                     std::span<const std::uint32_t> end) {
-  std::vector<Job> jobs;
+/// Lists what is missing, with planes to put it in.
+void SampleStore::plan_pass(std::span<const std::uint32_t> begin,
+                            std::span<const std::uint32_t> end) {
+  jobs_.clear();
+  std::uint32_t tile = UINT32_MAX;
+  // The planes made last: neighbours mostly want the same.
+  std::uint32_t made_begin = 0;
+  std::uint32_t made_end = 0;
   for (const std::uint32_t pixel : pixels_) {
     if (begin[pixel] >= end[pixel]) {
       continue;
@@ -134,49 +140,89 @@ std::vector<SampleStore::Job> SampleStore::plan_pass(std::span<const std::uint32
       clear(pixel);
       firsts_[pixel] = ends_[pixel] = begin[pixel];
     }
-    if (end[pixel] > ends_[pixel]) {
-      make_planes(tiles_[places_[pixel].tile], ends_[pixel], end[pixel]);
-      jobs.push_back({.pixel = pixel, .count = end[pixel] - ends_[pixel]});
+    if (end[pixel] <= ends_[pixel]) {
+      continue;
     }
+    const bool made =
+        places_[pixel].tile == tile && ends_[pixel] >= made_begin && end[pixel] <= made_end;
+    if (!made) {
+      tile = places_[pixel].tile;
+      made_begin = ends_[pixel];
+      made_end = end[pixel];
+      make_planes(tiles_[tile], made_begin, made_end);
+    }
+    jobs_.push_back({.pixel = pixel, .count = end[pixel] - ends_[pixel]});
   }
-  return jobs;
 }
 
 bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
                           const SampleSource& source, std::stop_token stop) {
   assert(begin.size() == ends_.size() && end.size() == ends_.size());
-  std::vector<Job> jobs = plan_pass(begin, end);
-  if (jobs.empty()) {
+  plan_pass(begin, end);
+  if (jobs_.empty()) {
     return true;
   }
+  std::size_t samples = 0;
+  for (const Job& job : jobs_) {
+    samples += job.count;
+  }
+  const std::size_t grain = std::max<std::size_t>(batch_samples * jobs_.size() / samples, 1);
   const auto start = std::chrono::steady_clock::now();
-  parallel_for(jobs.size(), grain_pixels, [&](std::size_t first, std::size_t last) {
-    std::vector<glm::vec3> radiance;
-    std::uint64_t before = __rdtsc();
-    for (std::size_t i = first; i != last && !stop.stop_requested(); ++i) {
-      Job& job = jobs[i];
-      const Place place = places_[job.pixel];
-      const Tile& tile = tiles_[place.tile];
-      const std::uint32_t index = ends_[job.pixel];
-      radiance.resize(job.count);
-      source(int(job.pixel) % width_, int(job.pixel) / width_, index, radiance);
-      for (std::uint32_t k = 0; k < job.count; ++k) {
-        tile.samples[index + k - tile.base][place.offset] = radiance[k];
-        job.rejected |= !acceptable(radiance[k]);
+  parallel_for(jobs_.size(), grain, [&](std::size_t first, std::size_t last) {
+    while (first < last && !stop.stop_requested()) {
+      std::size_t next = first;
+      for (std::size_t count = 0; next < last && count < batch_samples; ++next) {
+        count += jobs_[next].count;
       }
-      if (has_means_) {
-        append_means(job.pixel, radiance);
-      }
-      job.traced = true;
-      const std::uint64_t after = __rdtsc();
-      job.ticks = after - before;
-      before = after;
+      trace_batch(std::span(jobs_).subspan(first, next - first), source);
+      first = next;
     }
   });
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  finish_pass(jobs, wall);
+  finish_pass(wall);
   return !stop.stop_requested();
+}
+
+/// Has these samples made and puts them away. The time of the whole is shared by what the source
+/// says that each pixel took.
+void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
+  const std::uint64_t start = __rdtsc();
+  std::size_t count = 0;
+  for (const Job& job : jobs) {
+    count += job.count;
+  }
+  std::vector<glm::vec3> radiance(count);
+  std::vector<SampleJob> asked;
+  asked.reserve(jobs.size());
+  for (std::span<glm::vec3> rest = radiance; const Job& job : jobs) {
+    asked.push_back({.x = int(job.pixel) % width_,
+                     .y = int(job.pixel) / width_,
+                     .first = ends_[job.pixel],
+                     .radiance = rest.first(job.count)});
+    rest = rest.subspan(job.count);
+  }
+  source(asked);
+  double work = 0.0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Job& job = jobs[i];
+    const Place place = places_[job.pixel];
+    const Tile& tile = tiles_[place.tile];
+    const std::span<const glm::vec3> samples = asked[i].radiance;
+    for (std::uint32_t k = 0; k < job.count; ++k) {
+      tile.samples[asked[i].first + k - tile.base][place.offset] = samples[k];
+      job.rejected |= !acceptable(samples[k]);
+    }
+    if (has_means_) {
+      append_means(job.pixel, samples);
+    }
+    job.traced = true;
+    work += asked[i].work;
+  }
+  const double ticks_per_work = double(__rdtsc() - start) / work;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    jobs[i].ticks = asked[i].work * ticks_per_work;
+  }
 }
 
 /// Writes the means up to each of the samples that come next.
@@ -207,28 +253,34 @@ void SampleStore::append_means(std::uint32_t pixel, std::span<const glm::vec3> s
 
 /// Counts what was traced and shares the pass's wall-clock time among its pixels by the ticks that
 /// each took, so that the shares add up to what a user waits.
-void SampleStore::finish_pass(std::span<const Job> jobs, double wall) {
-  std::uint64_t total = 0;
-  for (const Job& job : jobs) {
+void SampleStore::finish_pass(double wall) {
+  double total = 0.0;
+  for (const Job& job : jobs_) {
     total += job.ticks;
-  }
-  const double seconds_per_tick = wall / double(std::max<std::uint64_t>(total, 1));
-  for (const Job& job : jobs) {
-    if (!job.traced) {
-      continue;  // the pass was stopped before this pixel
-    }
-    const std::uint32_t pixel = job.pixel;
-    ends_[pixel] += job.count;
-    stored_ += job.count;
-    traced_ += job.count;
-    timed_[pixel] += job.count;
-    const double seconds = double(job.ticks) * seconds_per_tick;
-    seconds_per_sample_[pixel] +=
-        float((seconds - double(job.count) * double(seconds_per_sample_[pixel])) / timed_[pixel]);
     if (job.rejected) {
-      tiles_[places_[pixel].tile].rejected = true;
+      tiles_[places_[job.pixel].tile].rejected = true;
     }
   }
+  const double seconds_per_tick = wall / std::max(total, 1.0);
+  std::atomic<std::uint64_t> made = 0;
+  parallel_for(jobs_.size(), grain_checks, [&](std::size_t first, std::size_t last) {
+    std::uint64_t count = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const Job& job = jobs_[i];
+      if (!job.traced) {
+        continue;  // the pass was stopped before this pixel
+      }
+      ends_[job.pixel] += job.count;
+      count += job.count;
+      timed_[job.pixel] += job.count;
+      float& mean = seconds_per_sample_[job.pixel];
+      const double seconds = job.ticks * seconds_per_tick;
+      mean += float((seconds - double(job.count) * double(mean)) / timed_[job.pixel]);
+    }
+    made += count;
+  });
+  stored_ += made;
+  traced_ += made;
   seconds_ += wall;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <span>
 #include <stop_token>
@@ -10,13 +9,9 @@
 
 #include "renderer/trace/plane_pool.h"
 #include "renderer/trace/running_mean.h"
+#include "renderer/trace/sample_source.h"
 
 namespace quartet {
-
-/// Writes samples first, first + 1, … of pixel (x, y) as linear radiance: the tracer, or anything
-/// else that is a pure function of its arguments. Called from many threads.
-using SampleSource =
-    std::function<void(int x, int y, std::uint32_t first, std::span<glm::vec3> radiance)>;
 
 /// The samples of every pixel, each traced once and then read by all lanes and all replays.
 ///
@@ -142,7 +137,7 @@ class SampleStore {
   struct Job {
     std::uint32_t pixel;
     std::uint32_t count;
-    std::uint64_t ticks = 0;
+    double ticks = 0.0;
     bool traced = false;
     bool rejected = false;  // any of them
   };
@@ -150,10 +145,10 @@ class SampleStore {
   void make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end);
   void release_planes_below(Tile& tile, std::uint32_t index);
   void clear(std::size_t pixel);
-  std::vector<Job> plan_pass(std::span<const std::uint32_t> begin,
-                             std::span<const std::uint32_t> end);
+  void plan_pass(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end);
+  void trace_batch(std::span<Job> jobs, const SampleSource& source);
   void append_means(std::uint32_t pixel, std::span<const glm::vec3> samples);
-  void finish_pass(std::span<const Job> jobs, double wall);
+  void finish_pass(double wall);
 
   int width_;
   int height_;
@@ -167,6 +162,7 @@ class SampleStore {
   PlanePool sample_planes_;
   PlanePool mean_planes_;
   std::vector<Prefix> prefixes_;
+  std::vector<Job> jobs_;  // of the pass under way; kept for its memory
   std::vector<float> seconds_per_sample_;
   std::vector<std::uint32_t> timed_;  // samples behind each mean of seconds
   std::uint64_t traced_ = 0;

@@ -21,9 +21,7 @@ class Sampler {
   using Draws = float[draws_per_call];
 
   Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index)
-      : key_(pixel_key(mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu)),
-                       pixel)),
-        reversed_index_(reverse_bits(index)) {}
+      : key_(pixel_key(seed_key(seed), pixel)), reversed_index_(reverse_bits(index)) {}
 
   /// The numbers of the next vertex; the first call is the camera's. Valid until the next call.
   const Draws& next() {
@@ -40,13 +38,16 @@ class Sampler {
   }
 
  private:
+  friend class Sampler8;
+
   // Two vertices at a time fill a vector of eight.
   static constexpr std::uint32_t vertices_per_block = 2;
   static constexpr std::uint32_t lanes = vertices_per_block * draws_per_call;
 
   /// A bijection of 32 bits with every output bit depending on every input bit (Wellons' lowbias32,
   /// improved constants).
-  static constexpr std::uint32_t mix(std::uint32_t x) {
+  template <class Word>
+  static constexpr Word mix(Word x) {
     x ^= x >> 16;
     x *= 0x21f0aaadu;
     x ^= x >> 15;
@@ -55,14 +56,20 @@ class Sampler {
     return x;
   }
 
+  static constexpr std::uint32_t seed_key(std::uint64_t seed) {
+    return mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu));
+  }
+
   /// The seed enters twice: once alone, two seeds would now and then give the same picture of
   /// noise, some pixels apart.
-  static constexpr std::uint32_t pixel_key(std::uint32_t seed, std::uint32_t pixel) {
+  template <class Word>
+  static constexpr Word pixel_key(std::uint32_t seed, Word pixel) {
     return mix(mix(seed + pixel * 0x9e3779b9u) + seed);
   }
 
   /// Each bit flipped by a hash of the bits below it: Owen scrambling of a bit-reversed number.
-  static constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t key) {
+  template <class Word>
+  static constexpr Word laine_karras(Word x, Word key) {
     x ^= x * 0x3d20adeau;
     x += key;
     x *= (key >> 16) | 1u;
@@ -71,7 +78,8 @@ class Sampler {
     return x;
   }
 
-  static constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+  template <class Word>
+  static constexpr Word reverse_bits(Word x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
@@ -81,7 +89,8 @@ class Sampler {
 
   /// Sobol's second generator matrix (Pascal's triangle modulo 2) times x, with the result bit
   /// reversed like x.
-  static constexpr std::uint32_t pascal(std::uint32_t x) {
+  template <class Word>
+  static constexpr Word pascal(Word x) {
     x ^= (x & 0xaaaaaaaau) >> 1;
     x ^= (x & 0xccccccccu) >> 2;
     x ^= (x & 0xf0f0f0f0u) >> 4;

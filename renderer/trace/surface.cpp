@@ -49,7 +49,7 @@ std::vector<Facet> facets_of(const Mesh& mesh) {
     const glm::vec3 a = mesh.positions[triangle.x];
     const glm::vec3 b = mesh.positions[triangle.y];
     const glm::vec3 c = mesh.positions[triangle.z];
-    Facet facet{a, b - a, c - a, {}, 0.0f};
+    Facet facet{a, b - a, c - a, {}, 0.0f, {}};
     facet.normal = glm::normalize(glm::cross(facet.edge1, facet.edge2));
     facet.offset = errors * glm::dot(glm::abs(facet.normal),
                                      glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c)));

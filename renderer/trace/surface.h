@@ -19,11 +19,20 @@ struct Surface {
   std::uint32_t primitive;
 };
 
+/// Where eight rays do. `normal` and `shading_normal` as above.
+struct Surface8 {
+  Vec8 position;
+  Vec8 normal;
+  Vec8 shading_normal;
+  Float8 offset;
+};
+
 /// What tracing wants to know of a triangle, worked out once and in one cache line.
 struct alignas(64) Facet {
   glm::vec3 corner, edge1, edge2;
   glm::vec3 normal;  ///< unit length
   float offset;
+  glm::vec3 reflectance{0.0f};  ///< of its material, where that has one everywhere
 };
 
 std::vector<Facet> facets_of(const Mesh& mesh);
@@ -39,9 +48,10 @@ void interpolate_normal(const Mesh& mesh, const Ray& ray, const Hit& hit, Surfac
 /// Texture coordinates of a point on a shape; `hit` gives triangle and barycentrics of a mesh.
 glm::vec2 uv_at(const Shape& shape, glm::vec3 position, const Hit& hit);
 
-/// A ray origin on the side of the surface that `direction` points to.
-inline glm::vec3 offset_origin(const Surface& surface, glm::vec3 direction) {
-  const bool front = glm::dot(direction, surface.normal) >= 0.0f;
+/// A ray origin on the side of the surface that `direction` points to; for one path or eight.
+template <class AnySurface, class Vector>
+Vector offset_origin(const AnySurface& surface, const Vector& direction) {
+  const auto front = dot(direction, surface.normal) >= 0.0f;
   return surface.position + surface.normal * (front ? surface.offset : -surface.offset);
 }
 

@@ -18,12 +18,20 @@ TraceScene::TraceScene(Scene scene)
   for (const Shape& shape : scene_.shapes) {
     const Material& material = scene_.materials[std::size_t(shape.material)];
     const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
-    records_.push_back({.shape = &shape,
-                        .material = &material,
-                        .facets = mesh ? facets_of(*mesh) : std::vector<Facet>(),
-                        .smooth = mesh && !mesh->normals.empty(),
-                        .textured = is_textured(shape, material),
-                        .emits = shape.emits});
+    ShapeRecord& record = records_.emplace_back();
+    record.shape = &shape;
+    record.material = &material;
+    record.facets = mesh ? facets_of(*mesh) : std::vector<Facet>();
+    record.smooth = mesh && !mesh->normals.empty();
+    record.textured = is_textured(shape, material);
+    record.plain =
+        mesh && !record.smooth && !record.textured && material.kind == MaterialKind::diffuse;
+    record.emits = shape.emits;
+    if (record.plain) {
+      for (Facet& facet : record.facets) {
+        facet.reflectance = material.reflectance.value;
+      }
+    }
   }
 }
 

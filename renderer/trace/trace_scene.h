@@ -24,6 +24,15 @@ class TraceScene {
   const Accel& accel() const { return accel_; }
   const Lights& lights() const { return lights_; }
 
+  /// The facet that was hit, if it says everything of the surface: flat, of one diffuse colour.
+  /// Else null.
+  const Facet* plain_facet(std::uint32_t shape, std::uint32_t primitive) const {
+    const ShapeRecord& record = records_[shape];
+    return record.plain ? &record.facets[primitive] : nullptr;
+  }
+  bool emits(std::uint32_t shape) const { return records_[shape].emits; }
+  bool two_sided(std::uint32_t shape) const { return records_[shape].material->two_sided; }
+
   Surface surface(const Ray& ray, const Hit& hit) const {
     const ShapeRecord& record = records_[hit.shape];
     Surface surface = record.facets.empty() ? surface_without_facets(record, ray, hit)
@@ -55,6 +64,7 @@ class TraceScene {
     std::vector<Facet> facets;  // of a mesh
     bool smooth;                // a mesh with normals
     bool textured;              // some colour of it depends on uv
+    bool plain;                 // neither, and diffuse
     bool emits;
   };
 

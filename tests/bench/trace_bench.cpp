@@ -1,7 +1,13 @@
-// Tracing against the rays alone: how much of the time that Embree needs for the same rays is left
-// when everything else (random numbers, shading, light sampling, storing) is added.
+// Tracing against the rays alone: the time that Embree needs for the same rays one by one, over
+// that of everything (random numbers, shading, light sampling, and the rays in packets).
 
 #include <benchmark/benchmark.h>
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
 
 #include <chrono>
 #include <vector>
@@ -39,37 +45,66 @@ Recorder record(const BenchScene& bench, std::uint32_t index) {
   return recorder;
 }
 
-void retrace(const Accel& accel, const Recorder& recorder) {
+RTCRayHit query_of(const Ray& ray) {
+  RTCRayHit query;
+  query.ray = {.org_x = ray.origin.x,
+               .org_y = ray.origin.y,
+               .org_z = ray.origin.z,
+               .tnear = 0.0f,
+               .dir_x = ray.direction.x,
+               .dir_y = ray.direction.y,
+               .dir_z = ray.direction.z,
+               .time = 0.0f,
+               .tfar = ray.t_max,
+               .mask = ~0u,
+               .id = 0,
+               .flags = 0};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+/// One ray at a time, in the order of the paths, by the plainest calls that Embree has.
+void retrace(RTCScene scene, const Recorder& recorder) {
   for (const RecordedRay& recorded : recorder.rays) {
-    if (recorded.shadow) {
-      benchmark::DoNotOptimize(accel.occluded(recorded.ray));
-    } else {
-      Hit hit;
-      benchmark::DoNotOptimize(accel.closest_hit(recorded.ray, hit));
-    }
+    RTCRayHit query = query_of(recorded.ray);
+#if RTC_VERSION_MAJOR >= 4
+    recorded.shadow ? rtcOccluded1(scene, &query.ray) : rtcIntersect1(scene, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    recorded.shadow ? rtcOccluded1(scene, &context, &query.ray)
+                    : rtcIntersect1(scene, &context, &query);
+#endif
+    benchmark::DoNotOptimize(query);
   }
 }
 
 /// One thread: tracing and retracing in turn, so that both see the same machine.
 void trace_against_rays_alone(benchmark::State& state) {
   const BenchScene bench("cornell-box", size, size);
-  const CameraRays camera(bench.settings.camera, size, size);
-  const auto trace = integrator(bench.settings.integrator).trace;
+  const SampleSource source = sample_source(bench.scene, bench.settings);
+  // In batches of the sample store's size.
+  constexpr int rows = 4;
+  std::vector<glm::vec3> radiance(std::size_t(size * rows));
+  std::vector<SampleJob> jobs;
   const Recorder recorder = record(bench, 0);
   double tracing = 0.0;
   double retracing = 0.0;
   for (auto _ : state) {
     auto start = std::chrono::steady_clock::now();
-    for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) {
-        glm::vec3 radiance;
-        trace(*bench.scene, bench.settings, camera, x, y, 0, {&radiance, 1});
-        benchmark::DoNotOptimize(radiance);
+    for (int top = 0; top < size; top += rows) {
+      jobs.clear();
+      for (int i = 0; i < size * rows; ++i) {
+        jobs.push_back(
+            {i % size, top + i / size, 0, std::span(radiance).subspan(std::size_t(i), 1)});
       }
+      source(jobs);
+      benchmark::DoNotOptimize(radiance.data());
     }
     tracing += seconds_since(start);
     start = std::chrono::steady_clock::now();
-    retrace(bench.scene->accel(), recorder);
+    retrace(bench.scene->accel().embree_scene(), recorder);
     retracing += seconds_since(start);
   }
   const double rays = double(recorder.rays.size()) * double(state.iterations());

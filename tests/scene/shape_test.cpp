@@ -245,6 +245,21 @@ TEST(Light, ConstantFillsTheEnvironment) {
   EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(Light, PointByPositionOrTransform) {
+  const Scene scene = load_body(R"(<emitter type="point"><point name="position" x="1" y="2" z="3"/>
+<rgb name="intensity" value="4, 5, 6"/></emitter>
+<emitter type="point"><transform name="to_world"><translate x="7"/></transform></emitter>)");
+  ASSERT_EQ(scene.points.size(), 2u);
+  EXPECT_EQ(scene.points[0].position, glm::vec3(1.0f, 2.0f, 3.0f));
+  EXPECT_EQ(scene.points[0].intensity, glm::vec3(4.0f, 5.0f, 6.0f));
+  EXPECT_EQ(scene.points[1].position, glm::vec3(7.0f, 0.0f, 0.0f));
+  EXPECT_EQ(scene.points[1].intensity, glm::vec3(1.0f));
+  const Scene dark =
+      load_body(R"(<emitter type="point"><rgb name="intensity" value="0"/></emitter>)");
+  expect_one_warning(dark, 2, "intensity 0 is left out");
+  EXPECT_TRUE(dark.points.empty());
+}
+
 TEST(Light, ReferencedEmitterAndTexturedRadiance) {
   const Scene scene = load_body(R"(<shape type="rectangle"><ref id="lamp"/></shape>
 <emitter type="area" id="lamp"><texture name="radiance" type="checkerboard">
@@ -259,6 +274,9 @@ TEST(Light, Errors) {
   expect_message(error_of(shape("cube", std::string(light) + std::string(light))), 2,
                  "two emitters");
   expect_message(error_of("<emitter type=\"constant\"/>"), 3, "at most one");
+  expect_message(error_of("<emitter type=\"point\"><point name=\"position\" x=\"1\"/>"
+                          "<transform name=\"to_world\"/></emitter>"),
+                 2, "expected one of them");
   expect_message(error_of(shape("cube", R"(<emitter type="area">
 <rgb name="radiance" value="1 -1 1"/></emitter>)")),
                  3, "radiance of emitter 'area' is negative");
