@@ -96,9 +96,8 @@ float color_key_height(const Ui& ui, ViewKind kind) {
 }
 
 void draw_color_key(LabFrame& frame, const PictureSlot& slot, const ScreenRect& box) {
-  const SlotChoice& choice = frame.state.slots[slot.lane][slot.slot];
   const PictureCache::Picture* picture =
-      frame.pictures.get(slot.texture, frame, slot.source, choice);
+      frame.pictures.get(slot.texture, frame, slot.source, shown_choice(frame.state, slot));
   if (!picture || box.height <= 0.0f) {
     return;
   }

@@ -11,6 +11,6 @@ namespace quartet {
 void draw_metric_table(LabFrame& frame, const ScreenRect& box);
 
 /// Of the reference; none if it has none or it is not known yet.
-std::optional<double> noise_floor(const LabFrame& frame, MetricId metric);
+std::optional<double> noise_floor(const LabFrame& frame, MetricId key);
 
 }  // namespace quartet

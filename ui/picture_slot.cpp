@@ -18,13 +18,6 @@ SlotChoice& choice_of(LabState& state, const PictureSlot& slot) {
   return state.slots[slot.lane][slot.slot];
 }
 
-/// What is drawn in the slot now: while a key is held, the reference in the place of the image.
-SlotChoice shown_choice(const LabState& state, const PictureSlot& slot) {
-  const SlotChoice& choice = state.slots[slot.lane][slot.slot];
-  return state.hold_reference && choice.kind == ViewKind::image ? SlotChoice{ViewKind::reference, 0}
-                                                                : choice;
-}
-
 std::string choice_label(const SlotChoice& choice) {
   const std::string label(view_row(choice.kind).label);
   return choice.kind == ViewKind::difference ? fmt::format("{} to lane {}", label, choice.other + 1)
@@ -250,6 +243,12 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const PictureCache::P
 }
 
 }  // namespace
+
+SlotChoice shown_choice(const LabState& state, const PictureSlot& slot) {
+  const SlotChoice& choice = state.slots[slot.lane][slot.slot];
+  return state.hold_reference && choice.kind == ViewKind::image ? SlotChoice{ViewKind::reference, 0}
+                                                                : choice;
+}
 
 std::string slot_name(const PictureSlot& slot) {
   return fmt::format("lane{}.slot{}", slot.lane, slot.slot);

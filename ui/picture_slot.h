@@ -18,6 +18,9 @@ struct PictureSlot {
 /// Under which the window records it.
 std::string slot_name(const PictureSlot& slot);
 
+/// What is drawn in the slot now: while a key is held, the reference in the place of the image.
+SlotChoice shown_choice(const LabState& state, const PictureSlot& slot);
+
 void draw_picture_slot(LabFrame& frame, const PictureSlot& slot);
 
 /// A and B of the comparison in one slot, with a line between them that can be dragged.

@@ -159,6 +159,7 @@ std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, do
     return std::nullopt;
   }
   std::vector<ErrorCurve::Point> measured;
+  measured.reserve(points.size());
   for (const glm::dvec2& point : points) {
     measured.push_back({point.x, point.y});
   }

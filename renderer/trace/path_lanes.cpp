@@ -172,11 +172,11 @@ Vertices vertices_at(const TraceScene& scene, const Ray8& rays, const Hit8& hits
   });
   const float* rows[simd_lanes];
   Float8 columns[2 * simd_lanes];
-  for (int half = 0; half < 2; ++half) {
+  for (const std::ptrdiff_t first : {0, simd_lanes}) {
     for (int i = 0; i < simd_lanes; ++i) {
-      rows[i] = &facets[i]->corner.x + half * simd_lanes;
+      rows[i] = &facets[i]->corner.x + first;
     }
-    transpose(rows, columns + half * simd_lanes);
+    transpose(rows, columns + first);
   }
   const auto column = [&](int i) { return Vec8{columns[i], columns[i + 1], columns[i + 2]}; };
   Surface8& surface = vertices.surface;

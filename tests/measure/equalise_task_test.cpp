@@ -11,13 +11,13 @@ namespace {
 
 using namespace test;
 
-EqualiseRequest request_for(CommonBudget budget) {
+EqualiseRequest request_for(const CommonBudget& budget) {
   const LabRequest lab = four_lanes();
   EqualiseRequest request;
   request.scene = lab.scene;
   request.settings = lab.settings;
   request.policies = lab.policies;
-  request.budget = std::move(budget);
+  request.budget = budget;
   request.threads = 2;
   return request;
 }
@@ -60,7 +60,7 @@ void expect_equal_spp(const EqualiseRequest& request, const EqualiseStatus& stat
 
 TEST(EqualiseTaskThreads, FindsThresholdsWithWhichAllLanesTakeTheSameSamples) {
   EqualiseTask task(equalise_work());
-  for (const double spp : {14.0, 11.0}) {
+  for (const double spp : {14.0, 12.5}) {
     const EqualiseRequest request = request_for(spp_budget(spp));
     const EqualiseStatus status = answer(task, request);
     EXPECT_EQ(status.error, "");

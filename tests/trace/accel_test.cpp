@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <random>
 
+#include "tests/trace/bits.h"
 #include "tests/trace/test_scenes.h"
 
 // What Accel promises of packets: what a ray meets does not depend, to the bit, on the rays beside
@@ -168,7 +168,7 @@ void expect_the_same_in_any_company(const Scene& scene, std::size_t count) {
         const Hit hit{hits.t[lane], hits.u[lane], hits.v[lane], hits.shape[lane],
                       hits.primitive[lane]};
         const bool same = bool(hits.met[lane]) == one.met && bool(occluded[lane]) == one.occluded &&
-                          (!one.met || std::memcmp(&hit, &one.hit, sizeof(Hit)) == 0);
+                          (!one.met || bits(hit) == bits(one.hit));
         different += !same;
         ++compared;
       }

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "renderer/trace/path.h"
+#include "tests/trace/bits.h"
 #include "tests/trace/test_scenes.h"
 
 // Eight paths at a time are each, to the bit, the path that trace_path makes: on every scene, with
@@ -53,6 +52,7 @@ Picture render(const TraceScene& scene, const RenderSettings& settings, std::siz
   for (int i = 0; i < settings.width * settings.height; ++i) {
     picture.radiance.emplace_back(std::size_t(i % 4), glm::vec3(-1.0f));
   }
+  jobs.reserve(picture.radiance.size());
   for (int i = 0; i < settings.width * settings.height; ++i) {
     jobs.push_back(
         {i % settings.width, i / settings.width, first, picture.radiance[std::size_t(i)]});
@@ -62,6 +62,7 @@ Picture render(const TraceScene& scene, const RenderSettings& settings, std::siz
     integrator(settings.integrator).trace_jobs(scene, settings, camera, rest.first(count));
     rest = rest.subspan(count);
   }
+  picture.work.reserve(jobs.size());
   for (const SampleJob& job : jobs) {
     picture.work.push_back(job.work);
   }
@@ -86,7 +87,7 @@ void expect_single_paths(const TraceScene& scene, RenderSettings settings) {
         for (std::size_t k = 0; k < pixel.size(); ++k) {
           const Reference one = single_path(scene, settings, camera, i % settings.width,
                                             i / settings.width, 5 + std::uint32_t(k));
-          different += std::memcmp(&one.radiance, &pixel[k], sizeof(glm::vec3)) != 0;
+          different += bits(one.radiance) != bits(pixel[k]);
           rays += one.rays;
         }
         EXPECT_EQ(picture.work[std::size_t(i)], double(rays)) << "pixel " << i;
