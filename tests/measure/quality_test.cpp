@@ -153,7 +153,8 @@ TEST(OracleWeights, AreTheRootOfTheVarianceOfOneSample) {
   film.add(1, std::vector<glm::vec3>(8, glm::vec3(5.0f)));
   std::vector<glm::vec3> samples;
   for (int i = 0; i < 50; ++i) {
-    samples.emplace_back(i % 2 ? 3.0f : 1.0f);  // s² = 50/49 in each of three channels
+    samples.emplace_back(i % 2 ? 3.0f : 1.0f);  // s² = 50/49 in each of three channels  //
+                                                // NOLINT(performance-inefficient-vector-operation)
   }
   film.add(2, samples);
   const auto weights = oracle_weights(film);
@@ -172,7 +173,8 @@ TEST(OracleWeights, SpreadSamplesWithLessErrorThanAnyOtherTried) {
     return sum;
   };
   std::vector<double> best;
-  for (const double d : deviations) best.push_back(d / 4.6);
+  for (const double d : deviations)
+    best.push_back(d / 4.6);  // NOLINT(performance-inefficient-vector-operation)
   std::mt19937 random(5);
   std::uniform_real_distribution<double> factor(0.5, 2.0);
   for (int i = 0; i < 200; ++i) {
