@@ -153,8 +153,8 @@ TEST(OracleWeights, AreTheRootOfTheVarianceOfOneSample) {
   film.add(1, std::vector<glm::vec3>(8, glm::vec3(5.0f)));
   std::vector<glm::vec3> samples;
   for (int i = 0; i < 50; ++i) {
+    // NOLINTNEXTLINE(performance-inefficient-vector-operation)
     samples.emplace_back(i % 2 ? 3.0f : 1.0f);  // s² = 50/49 in each of three channels  //
-                                                // NOLINT(performance-inefficient-vector-operation)
   }
   film.add(2, samples);
   const auto weights = oracle_weights(film);
