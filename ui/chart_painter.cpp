@@ -237,7 +237,7 @@ std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Cha
   }
   ImGui::SetCursorScreenPos({area.x, area.y});
   ImGui::InvisibleButton(name.c_str(), {area.width, area.height});
-  ui.mark(name, area);
+  ui.mark(name);
 
   constexpr int none = -1;
   ImGuiStorage& storage = *ImGui::GetStateStorage();
