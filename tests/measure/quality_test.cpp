@@ -151,10 +151,9 @@ TEST(OracleWeights, AreTheRootOfTheVarianceOfOneSample) {
   Film film(3, 1, {.variance = true});
   film.add(0, std::vector<glm::vec3>{{0, 0, 0}, {2, 0, 0}});  // s² = 2
   film.add(1, std::vector<glm::vec3>(8, glm::vec3(5.0f)));
-  std::vector<glm::vec3> samples;
-  for (int i = 0; i < 50; ++i) {
-    // NOLINTNEXTLINE(performance-inefficient-vector-operation)
-    samples.emplace_back(i % 2 ? 3.0f : 1.0f);  // s² = 50/49 in each of three channels  //
+  std::vector<glm::vec3> samples(50, glm::vec3(1.0f));  // s² = 50/49 in each of three channels
+  for (std::size_t i = 1; i < samples.size(); i += 2) {
+    samples[i] = glm::vec3(3.0f);
   }
   film.add(2, samples);
   const auto weights = oracle_weights(film);
@@ -172,9 +171,10 @@ TEST(OracleWeights, SpreadSamplesWithLessErrorThanAnyOtherTried) {
     }
     return sum;
   };
-  std::vector<double> best;
-  for (const double d : deviations)
-    best.push_back(d / 4.6);  // NOLINT(performance-inefficient-vector-operation)
+  std::vector<double> best = deviations;
+  for (double& share : best) {
+    share /= 4.6;
+  }
   std::mt19937 random(5);
   std::uniform_real_distribution<double> factor(0.5, 2.0);
   for (int i = 0; i < 200; ++i) {
