@@ -4,12 +4,12 @@
 #include <cmath>
 #include <memory>
 
+#include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/lane_option.h"
 #include "app/number_check.h"
 #include "app/progress.h"
 #include "app/run_options.h"
-#include "app/study_commands.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/bias.h"

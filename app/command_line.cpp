@@ -9,7 +9,6 @@
 #include "app/commands.h"
 #include "app/number_check.h"
 #include "app/shell_words.h"
-#include "app/study_commands.h"
 #include "renderer/version.h"
 
 namespace quartet {

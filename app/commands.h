@@ -30,6 +30,8 @@ void add_claims_command(CLI::App& app, const Program& program);
 void add_list_command(CLI::App& app, const Program& program);
 void add_info_command(CLI::App& app, const Program& program);
 void add_trace_command(CLI::App& app, const Program& program);
+void add_bias_command(CLI::App& app, const Program& program);
+void add_stability_command(CLI::App& app, const Program& program);
 
 /// The options of the window, which is what the program opens without a command.
 struct WindowOptions {

@@ -5,11 +5,11 @@
 #include <memory>
 
 #include <tbb/task_arena.h>
+#include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/number_check.h"
 #include "app/progress.h"
 #include "app/stability_files.h"
-#include "app/study_commands.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/verdict.h"
 
