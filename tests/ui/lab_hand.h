@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <array>
 #include <chrono>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/imgui_screen.h"
 #include "app/lab_driver.h"
@@ -156,5 +158,19 @@ class LabHand {
   LabDriver driver_;
   double seconds_ = 0.0;
 };
+
+/// The name of a widget of a lane.
+inline std::string lane_widget(std::size_t lane, const std::string& what) {
+  return "lane" + std::to_string(lane) + "." + what;
+}
+
+/// What is in the second picture, the heatmap, of every lane.
+inline std::array<std::vector<Rgba8>, lane_count> heatmaps(LabHand& hand) {
+  std::array<std::vector<Rgba8>, lane_count> all;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    all[lane] = hand.pixels(lane_widget(lane, "slot1"));
+  }
+  return all;
+}
 
 }  // namespace quartet
