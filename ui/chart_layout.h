@@ -39,6 +39,7 @@ struct ChartLayout {
 };
 
 ChartLayout lay_out(const ChartFigure& figure);
+ChartLayout lay_out(const ChartFigure&& gone) = delete;
 
 /// The legend's entries of all charts, each label once.
 std::vector<std::pair<std::string, LegendSample>> legend_of(const ChartFigure& figure);

@@ -54,5 +54,6 @@ struct FigureLayout {
 };
 
 FigureLayout lay_out(const Figure& figure);
+FigureLayout lay_out(const Figure&& gone) = delete;
 
 }  // namespace quartet

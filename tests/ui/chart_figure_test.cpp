@@ -102,7 +102,8 @@ TEST(ChartLayout, NoTextOrLegendCoversDataOrLeavesThePage) {
 }
 
 TEST(ChartLayout, LabelsOfBothAxesAndALegendEntryALabelOnce) {
-  const ChartLayout layout = lay_out(two_charts());
+  const ChartFigure figure = two_charts();
+  const ChartLayout layout = lay_out(figure);
   for (const char* text : {"as-if-alone time (s)", "relMSE (ratio)"}) {
     EXPECT_EQ(std::ranges::count(layout.texts, text, &PlacedText::text), 2) << text;
   }
@@ -114,7 +115,8 @@ TEST(ChartLayout, LabelsOfBothAxesAndALegendEntryALabelOnce) {
 }
 
 TEST(ChartLayout, NumbersStandAtTheirTicks) {
-  const ChartLayout layout = lay_out(two_charts());
+  const ChartFigure figure = two_charts();
+  const ChartLayout layout = lay_out(figure);
   ASSERT_EQ(layout.charts.size(), 2u);
   EXPECT_GE(layout.charts[0].x_grid.size(), 3u);
   const PlacedChart& placed = layout.charts[0];
