@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <filesystem>
 
 #include "app/commands.h"
@@ -14,15 +13,10 @@
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference_cache.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Enough samples a pass that threads do not wait for each other, few enough that Ctrl-C and the
 /// progress bar do not wait for the pass.
@@ -119,7 +113,7 @@ bool run_reference(ReferenceRender& render, const ReferenceGoal& goal, int threa
                    std::stop_token stop) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   Progress progress("reference");
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const std::uint64_t from = render.sums().spp;
   const auto done = [&] {
     double fraction = 0.0;
@@ -127,7 +121,7 @@ bool run_reference(ReferenceRender& render, const ReferenceGoal& goal, int threa
       const std::uint64_t spp = render.sums().spp;
       fraction = spp >= *goal.spp ? 1.0 : double(spp - from) / double(*goal.spp - from);
     }
-    return goal.seconds ? std::max(fraction, seconds_since(start) / *goal.seconds) : fraction;
+    return goal.seconds ? std::max(fraction, watch.seconds() / *goal.seconds) : fraction;
   };
   while (done() < 1.0) {
     if (stop.stop_requested()) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "renderer/image/staged_files.h"
 #include "renderer/image/ticks.h"
 #include "renderer/measure/sweep_charts.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
@@ -135,14 +135,13 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
   const auto compare = [&](const SamplingPolicy& policy, const Measurement& charged) {
     Lab lab(world.source(world.first_seed), world.width, world.height, std::span(&policy, 1),
             lab_options(world, world.first_seed));
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     while (lab.frame() < charged.record.frame) {
       if (!lab.run_frame(stop) || stop.stop_requested()) {
         throw Interrupted();
       }
     }
-    const double alone =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double alone = watch.seconds();
     const double difference = charged.record.seconds / alone - 1.0;
     fmt::print("{:<22} {:>9.2f} {:>14.3f} {:>14.3f} {:>+9.1f} %\n",
                estimator(policy.estimator).label, charged.mean_spp, charged.record.seconds, alone,

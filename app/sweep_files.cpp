@@ -121,7 +121,7 @@ void write_sweep_files(StagedFiles& files, const SweepReport& report) {
   write_figure(files, "sweep", sweep);
   ChartFigure calibration = figure_of(report, "what the error estimators know");
   calibration.charts = {calibration_chart(report.result)};
-  calibration.lines.push_back(
+  calibration.lines.emplace_back(
       "At the default thresholds with the first seed; each dot is the mean of a 32nd of the "
       "pixels.");
   write_figure(files, "calibration", calibration);

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
@@ -117,7 +118,8 @@ void run_trace(const TraceOptions& options) {
     }
     fmt::print("ends: {}\n", reason(log.end));
     // Bit by bit, because NaN is not equal to itself.
-    if (std::memcmp(&log.radiance, &sample, sizeof sample) != 0) {
+    using Bits = std::array<std::uint32_t, 3>;
+    if (std::bit_cast<Bits>(log.radiance) != std::bit_cast<Bits>(sample)) {
       throw std::logic_error(fmt::format("the renderer's sample is {}, the path above gives {}",
                                          numbers(sample), numbers(log.radiance)));
     }

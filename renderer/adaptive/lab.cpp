@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "renderer/parallel.h"
 #include "renderer/scene/synthetic.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 
@@ -114,7 +114,7 @@ void Lab::advance(std::uint32_t frame) {
   // Together, because lanes want much the same samples: what one has brought into the cache, the
   // others find there. The share that each is charged is therefore a little less than what it would
   // take alone, of a time that is small beside that of tracing.
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   parallel_for(std::size_t(shown_.store.tile_rows()), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
       for (Lane* lane : moving) {
@@ -122,10 +122,10 @@ void Lab::advance(std::uint32_t frame) {
       }
     }
   });
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const double took = watch.seconds();
   // One after the other, each on all threads: a lane's own time is then what it would be alone.
   for (Lane* lane : moving) {
-    lane->end_frame(took.count() / double(moving.size()));
+    lane->end_frame(took / double(moving.size()));
   }
 }
 

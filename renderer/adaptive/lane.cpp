@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 
 #include "renderer/adaptive/film_feed.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
@@ -62,11 +62,13 @@ void Lane::restart(const SamplingPolicy& policy, const LaneInputs& inputs) {
 }
 
 void Lane::begin_frame(const LaneStores& stores) {
+  const Stopwatch watch;
   rows_.assign(std::size_t(stores.shown.tile_rows()), {});
   looks_up_shown_ = begin_film(film_, stores.shown, frame());
   if (pilot_) {
     looks_up_pilot_ = begin_film(*pilot_, *stores.pilot, frame());
   }
+  own_seconds_ += watch.seconds();
 }
 
 void Lane::take(const LaneStores& stores, int tile_row) {
@@ -81,7 +83,7 @@ void Lane::take(const LaneStores& stores, int tile_row) {
 }
 
 void Lane::end_frame(double take_seconds) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Estimator& row = estimator(policy_.estimator);
   if (row.estimate) {
     error_.resize(std::size_t(row.channels) * film_.size());
@@ -106,8 +108,7 @@ void Lane::end_frame(double take_seconds) {
   }
   history_.push(record);
   replan();
-  own_seconds_ += take_seconds +
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  own_seconds_ += take_seconds + watch.seconds();
   history_.back().refined = plan_.refined;
   history_.back().seconds += own_seconds_;
 }

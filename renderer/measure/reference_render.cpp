@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/parallel.h"
+#include "renderer/stopwatch.h"
 #include "renderer/trace/running_mean.h"
 
 namespace quartet {
@@ -65,7 +65,7 @@ bool ReferenceRender::add(std::uint32_t spp, const std::function<bool()>& gives_
     throw std::runtime_error(
         fmt::format("a reference of more than {} samples a pixel is not possible", most));
   }
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   ReferenceSums after;  // for its counts alone
   after.spp = sums_.spp + spp;
   const std::size_t columns = std::size_t(tiles(sums_.settings.width));
@@ -86,7 +86,7 @@ bool ReferenceRender::add(std::uint32_t spp, const std::function<bool()>& gives_
     return false;
   }
   sums_.spp = after.spp;
-  sums_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  sums_.seconds += watch.seconds();
   return true;
 }
 

@@ -11,6 +11,7 @@
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference_cache.h"
 #include "renderer/measure/reference_render.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
@@ -147,12 +148,12 @@ void Shelf::compute(const ReferenceRequest& request, const std::stop_token& stop
   Clock::time_point published = {};
   double seconds_a_sample = 0.0;
   while (sums.spp < request.spp && !stop.stop_requested()) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     status_.waits = busy_() || !add_pass(stop);
     if (status_.waits) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     } else {
-      const double now = std::chrono::duration<double>(Clock::now() - start).count() / pass_spp;
+      const double now = watch.seconds() / pass_spp;
       seconds_a_sample = seconds_a_sample > 0.0 ? 0.9 * seconds_a_sample + 0.1 * now : now;
       status_.seconds_left =
           seconds_a_sample * double(request.spp - std::min(request.spp, sums.spp));

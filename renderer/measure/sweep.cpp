@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "renderer/measure/calibrate.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
@@ -35,7 +35,7 @@ class SweepProgress {
       }
     }
     seed_ = seed;
-    start_ = Clock::now();
+    watch_ = {};
   }
   void begin_run(std::size_t run, std::string what) {
     if (seed_ == 0) {
@@ -55,16 +55,14 @@ class SweepProgress {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   static double guess(double share) { return std::pow(share, 0.3); }
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double elapsed() const { return watch_.seconds(); }
 
   double seeds_;
   std::vector<double> shares_;  // of a seed's time that is over when a run begins
   std::vector<double> starts_;  // seconds after the first seed's beginning
   const std::function<void(double, std::string_view)>& tell_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch watch_;
   std::size_t seed_ = 0;
   std::size_t run_ = 0;
   std::string what_;

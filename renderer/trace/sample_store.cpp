@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <chrono>
 #include <utility>
 
 #include "renderer/parallel.h"
+#include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
@@ -158,6 +158,8 @@ void SampleStore::plan_pass(std::span<const std::uint32_t> begin,
 bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
                           const SampleSource& source, std::stop_token stop) {
   assert(begin.size() == ends_.size() && end.size() == ends_.size());
+  // Planning is part of what a pass costs.
+  const Stopwatch watch;
   plan_pass(begin, end);
   if (jobs_.empty()) {
     return true;
@@ -167,7 +169,6 @@ bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const 
     samples += job.count;
   }
   const std::size_t grain = std::max<std::size_t>(batch_samples * jobs_.size() / samples, 1);
-  const auto start = std::chrono::steady_clock::now();
   parallel_for(jobs_.size(), grain, [&](std::size_t first, std::size_t last) {
     while (first < last && !stop.stop_requested()) {
       std::size_t next = first;
@@ -178,9 +179,7 @@ bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const 
       first = next;
     }
   });
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  finish_pass(wall);
+  finish_pass(watch.seconds());
   return !stop.stop_requested();
 }
 

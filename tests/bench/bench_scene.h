@@ -1,11 +1,11 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <string_view>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/stopwatch.h"
 #include "renderer/trace/integrator.h"
 
 namespace quartet {
@@ -28,9 +28,5 @@ struct BenchScene {
     return Lab(sample_source(scene, settings), settings.width, settings.height, policies, options);
   }
 };
-
-inline double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace quartet

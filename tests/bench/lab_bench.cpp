@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "tests/bench/bench_scene.h"
 
@@ -25,11 +24,11 @@ std::vector<SamplingPolicy> four_policies() {
 }
 
 double run(Lab& lab) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   while (lab.frame() < frames) {
     lab.run_frame();
   }
-  return seconds_since(start);
+  return watch.seconds();
 }
 
 void four_lanes(benchmark::State& state) {

@@ -56,9 +56,9 @@ void calls_while_busy(benchmark::State& state) {
   std::vector<double> submits;
   std::vector<double> latests;
   const auto timed = [](std::vector<double>& times, const auto& call) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     call();
-    times.push_back(1e6 * seconds_since(start));
+    times.push_back(1e6 * watch.seconds());
   };
   int step = 0;
   std::shared_ptr<const Snapshot> shown;

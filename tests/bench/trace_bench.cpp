@@ -9,7 +9,6 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <chrono>
 #include <vector>
 
 #include "renderer/trace/path.h"
@@ -92,7 +91,7 @@ void trace_against_rays_alone(benchmark::State& state) {
   double tracing = 0.0;
   double retracing = 0.0;
   for (auto _ : state) {
-    auto start = std::chrono::steady_clock::now();
+    const Stopwatch tracing_watch;
     for (int top = 0; top < size; top += rows) {
       jobs.clear();
       for (int i = 0; i < size * rows; ++i) {
@@ -102,10 +101,10 @@ void trace_against_rays_alone(benchmark::State& state) {
       source(jobs);
       benchmark::DoNotOptimize(radiance.data());
     }
-    tracing += seconds_since(start);
-    start = std::chrono::steady_clock::now();
+    tracing += tracing_watch.seconds();
+    const Stopwatch retracing_watch;
     retrace(bench.scene->accel().embree_scene(), recorder);
-    retracing += seconds_since(start);
+    retracing += retracing_watch.seconds();
   }
   const double rays = double(recorder.rays.size()) * double(state.iterations());
   state.counters["Mpaths/s"] = double(size * size) * double(state.iterations()) / tracing * 1e-6;
