@@ -24,9 +24,17 @@ struct Mapping {
   double position(float sx) const { return double((sx - area.x) / area.width); }
 };
 
+constexpr float marker_head = 5.0f;  // half of its width
+
 /// In a low chart texts would cover the data: the one at the right goes up into the title's line.
 bool is_low(const Ui& ui, const ScreenRect& area) {
   return area.height < ui.px(52.0f);
+}
+
+/// "pixels by error" over "error (contrast)" is "pixels by error (contrast)".
+std::string title_with_unit(const Chart& chart) {
+  const std::size_t unit = chart.x.label.find(" (");
+  return unit == std::string::npos ? chart.title : chart.title + chart.x.label.substr(unit);
 }
 
 void draw_titles(const Ui& ui, const Chart& chart, const ScreenRect& box, bool low) {
@@ -35,9 +43,9 @@ void draw_titles(const Ui& ui, const Chart& chart, const ScreenRect& box, bool l
   const auto text = std::ranges::find(chart.texts, Align::right, &ChartText::align);
   if (low && text != chart.texts.end()) {
     text_left_of(ui.small, box.right(), box.y, screen_color(text->color), text->text);
-    if (text_width(ui.small, text->text) <= room) {
-      text_at(ui.small, box.x, box.y, palette::text, chart.title);
-    }
+    const float left = box.width - text_width(ui.small, text->text) - ui.px(8.0f);
+    text_at(ui.small, box.x, box.y, palette::text,
+            fitting_text(ui.small, {title_with_unit(chart), chart.title, ""}, left));
     return;
   }
   text_at(ui.small, box.x, box.y, palette::text, chart.title);
@@ -179,6 +187,7 @@ void draw_data(const Ui& ui, const Mapping& map) {
 
 void draw_texts(const Ui& ui, const Mapping& map) {
   const ScreenRect& area = map.area;
+  const float below_heads = map.chart.markers.empty() ? 0.0f : ui.px(1.4f * marker_head);
   for (const ChartText& text : map.chart.texts) {
     if (is_low(ui, area) && text.align != Align::center) {
       continue;
@@ -188,10 +197,11 @@ void draw_texts(const Ui& ui, const Mapping& map) {
                     (text.align == Align::left     ? 0.0f
                      : text.align == Align::center ? 0.5f * width
                                                    : width);
-    const float y = area.bottom() - float(text.place.y) * area.height;
+    const float y =
+        std::max(area.bottom() - float(text.place.y) * area.height, area.y + below_heads);
     ImGui::GetWindowDrawList()->AddRectFilled({x - ui.px(3.0f), y},
                                               {x + width + ui.px(3.0f), y + font_size(ui.small)},
-                                              with_alpha(palette::well, 0.7f), ui.px(2.0f));
+                                              with_alpha(palette::well, 0.8f), ui.px(2.0f));
     text_at(ui.small, x, y, screen_color(text.color), text.text);
   }
 }
@@ -202,7 +212,7 @@ void draw_marker(Ui& ui, const std::string& name, const Mapping& map, const Mark
   const ScreenRect& area = map.area;
   const float x = std::clamp(map.x(marker.value), area.x, area.right());
   const ImU32 color = screen_color(marker.color);
-  const float head = ui.px(lit ? 6.0f : 5.0f);
+  const float head = ui.px(lit ? marker_head + 1.0f : marker_head);
   list.AddLine({x, area.y}, {x, area.bottom()}, color, ui.px(lit ? 2.5f : 1.5f));
   list.AddTriangleFilled({x - head, area.y}, {x + head, area.y}, {x, area.y + 1.4f * head}, color);
   ui.mark(fmt::format("{}.marker{}", name, marker.id), {x - head, area.y, 2 * head, area.height});
@@ -256,10 +266,10 @@ std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Cha
   draw_ticks(ui, map, box);
   ImGui::PushClipRect({area.x, area.y}, {area.right(), area.bottom()}, true);
   draw_data(ui, map);
-  draw_texts(ui, map);
   for (const Marker& marker : chart.markers) {
     draw_marker(ui, name, map, marker, marker.id == held || (hovered && near == &marker));
   }
+  draw_texts(ui, map);
   if (hovered && !near && held == none) {
     list.AddLine({mouse, area.y}, {mouse, area.bottom()}, with_alpha(palette::text, 0.5f));
   }

@@ -123,14 +123,19 @@ bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) 
   return chosen;
 }
 
+/// Of a combo box that shows this label.
+float combo_width(const Ui& ui, std::string_view label) {
+  return text_width(ui.body, std::string(label)) + ui.px(20.0f) + ImGui::GetFrameHeight();
+}
+
 /// Of a combo box that holds any label of a table.
 template <class Row>
 float combo_width(const Ui& ui, std::span<const Row> table) {
   float widest = 0.0f;
   for (const Row& row : table) {
-    widest = std::max(widest, text_width(ui.body, std::string(row.label)));
+    widest = std::max(widest, combo_width(ui, row.label));
   }
-  return widest + ui.px(20.0f) + ImGui::GetFrameHeight();
+  return widest;
 }
 
 /// Nothing for a policy without votes to multiply.
@@ -187,16 +192,16 @@ bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
   box.width -= reset + ui.px(2.0f);
 
   const bool one = row.channels == 1;
-  const float field = ui.px(one ? 56.0f : 38.0f);
+  const float field = ui.px(one ? 56.0f : 34.0f);
   const std::string unit(row.unit);
   const float unit_width = text_width(ui.small, unit) + ui.px(6.0f);
-  const float part_gap = ui.px(6.0f);
+  const float part_gap = ui.px(one ? 6.0f : 3.0f);
   const auto slider_width = [&](float width) {
     const float part = (width - float(row.channels - 1) * part_gap) / float(row.channels);
     return part - field - (one ? text_width(ui.body, "threshold") + ui.px(8.0f) : ui.px(13.0f));
   };
   // The unit gives way first: the axis of the plot below says it as well.
-  if (slider_width(box.width - unit_width) > ui.px(34.0f)) {
+  if (slider_width(box.width - unit_width) > ui.px(40.0f)) {
     text_left_of(ui.small, box.right(), text_y + ui.px(1.5f), palette::dim, unit);
     box.width -= unit_width;
   }
@@ -304,8 +309,6 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   const float gap = ui.px(8.0f);
   const float row = row_height(ui);
   const float mean_width = ui.px(76.0f);
-  const float policy_width = combo_width(ui, allocations());
-  const float use_width = combo_width(ui, sample_uses());
   const float estimator_width = combo_width(ui, estimators());
   const bool has_reference = frame.state.request.reference != nullptr;
   ScreenRect first = box.cut_top(row);
@@ -316,6 +319,8 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
       edit_estimator(ui, lane, edited, has_reference, std::min(first.width, estimator_width));
   tooltip(ui, std::string(estimator(edited.estimator).source));
   if (is_wide(ui, box.width)) {
+    const float policy_width = combo_width(ui, allocations());
+    const float use_width = combo_width(ui, sample_uses());
     first.cut_left(estimator_width + gap);
     ImGui::SetCursorScreenPos({first.x, first.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
@@ -325,16 +330,23 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     first.cut_left(use_width + gap);
     changed |= edit_multiplier(ui, lane, edited, first.cut_left(ui.px(160.0f)));
     ScreenRect second = box.cut_top(row);
-    ScreenRect numbers = second.cut_right(0.5f * second.width);
+    // Of the usual numbers, not of these: a slider that grew as they change would move under the
+    // mouse that drags it.
+    const float usual =
+        text_width(ui.small, "max 888 spp · 88.88 s as if alone · 88.8 % still refining");
+    ScreenRect numbers = second.cut_right(std::min(usual, 0.5f * second.width));
     numbers.y += ui.px(6.0f);
     draw_numbers(frame, lane, numbers, true);
     second.cut_right(2 * gap);
     changed |= edit_thresholds(ui, lane, edited, second);
   } else {
     ScreenRect second = box.cut_top(row);
+    // No wider than what they show: the multiplier needs the room.
+    const float policy_width = combo_width(ui, allocation(edited.allocation.kind).label);
+    const float use_width = combo_width(ui, sample_use(edited.use).label);
     ImGui::SetCursorScreenPos({second.x, second.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
-    second.cut_left(policy_width + gap);
+    second.cut_left(policy_width + 0.5f * gap);
     ImGui::SetCursorScreenPos({second.x, second.y});
     changed |= edit_sample_use(ui, lane, edited, use_width);
     second.cut_left(use_width + gap);

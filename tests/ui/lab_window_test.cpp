@@ -12,6 +12,7 @@
 #include "renderer/scene/synthetic.h"
 #include "tests/image/temp_folder.h"
 #include "tests/ui/lab_hand.h"
+#include "ui/lab_layout.h"
 #include "ui/lane_header.h"
 
 namespace quartet {
@@ -300,6 +301,37 @@ TEST(LabWindow, TheScaleOfTextAndControlsChangesWhileItRuns) {
   EXPECT_EQ(hand.window().ui().scale, 1.0f) << "as the display says";
   EXPECT_TRUE(std::ranges::equal(hand.screen().pixels(), before.pixels()))
       << "the fonts are the ones of before";
+}
+
+TEST(LabWindow, SlidersAreLongEnoughForAHandInTheSmallestWindow) {
+  LabHand hand(1280, 720);
+  for (const LabLayout layout : {LabLayout::columns, LabLayout::grid, LabLayout::large}) {
+    hand.state().layout = layout;
+    hand.frames(3);
+    std::size_t seen = 0;
+    for (const auto& [name, box] : hand.window().ui().widgets) {
+      if (name.ends_with(".multiplier")) {
+        ++seen;
+        EXPECT_GT(box.width, 60.0f) << name << " in layout " << layout_row(layout).id;
+      } else if (name.find(".threshold") != std::string::npos && !name.ends_with(".number")) {
+        ++seen;
+        EXPECT_GE(box.width, 40.0f) << name << " in layout " << layout_row(layout).id;
+      }
+    }
+    EXPECT_EQ(seen, layout == LabLayout::large ? 4u : 10u) << "a lane's multiplier and thresholds";
+  }
+}
+
+TEST(LabWindow, ASliderKeepsItsLengthWhileTheNumbersBesideItChange) {
+  LabHand hand(1280, 720);
+  hand.state().layout = LabLayout::grid;
+  hand.frames(3);
+  const ScreenRect before = hand.rect("lane1.threshold0");
+  const float numbers = hand.rect("lane1.numbers").width;
+  hand.state().request.policies[1].thresholds[0] = 1000.0f;  // nothing is refined
+  hand.settle();
+  EXPECT_NE(hand.rect("lane1.numbers").width, numbers);
+  EXPECT_EQ(hand.rect("lane1.threshold0").width, before.width);
 }
 
 TEST(LabWindow, NothingLeavesTheWindow) {
