@@ -196,9 +196,12 @@ std::string LabDriver::error() const {
 
 void LabDriver::save(const ExportForm& form) {
   try {
-    const std::filesystem::path folder =
-        export_lab(*snapshot_, window_.state().view, form, window_.state().scene);
-    window_.say(Message::Kind::notice, fmt::format("saved into {}", folder.string()));
+    const std::shared_ptr<const Reference>& reference = reference_->output.reference;
+    const bool measured = reference && snapshot_->reference.get() == &reference->image;
+    const LabExport done = export_lab(*snapshot_, window_.state().view, form, window_.state().scene,
+                                      measured ? reference.get() : nullptr);
+    window_.say(Message::Kind::notice, fmt::format("saved into {}{}", done.folder.string(),
+                                                   done.lacks.empty() ? "" : "; " + done.lacks));
   } catch (const std::exception& error) {
     window_.say(Message::Kind::error, error.what());
   }

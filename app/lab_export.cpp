@@ -5,9 +5,12 @@
 #include "app/lab_files.h"
 #include "app/lane_option.h"
 #include "app/shell_words.h"
+#include "renderer/image/exr.h"
 
 namespace quartet {
 namespace {
+
+constexpr std::string_view reference_file = "reference.exr";
 
 std::string camera_text(const Camera& camera) {
   std::string text;
@@ -19,10 +22,28 @@ std::string camera_text(const Camera& camera) {
   return text;
 }
 
+/// Whether there was a file that holds just this reference.
+bool stage_reference(StagedFiles& files, const Reference* reference) {
+  if (reference == nullptr || reference->path.empty()) {
+    return false;
+  }
+  try {
+    const ExrImage exr = read_exr(reference->path);
+    if (radiance_of(exr, reference->path) != reference->image) {
+      return false;  // it has more samples by now, or is another
+    }
+    write_exr(files.stage(reference_file), exr);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& view,
-                                const std::string& scene, const std::string& folder) {
+                                const std::string& scene, const std::string& folder,
+                                const std::filesystem::path& reference) {
   const RenderSettings& settings = snapshot.settings;
   std::string command = "quartet figure " + shell_word(scene);
   command += fmt::format(" --frames {} --size {}x{} --integrator {} --seed {}", snapshot.frame,
@@ -37,6 +58,9 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
   for (const LaneSnapshot& lane : snapshot.lanes) {
     command += " --lane " + lane_text(lane.policy);
   }
+  if (!reference.empty()) {
+    command += " --reference " + shell_word(reference.string());
+  }
   const ViewSettings plain;
   if (view.heat != plain.heat) {
     command += " --heat " + heat_id(view.heat);
@@ -50,18 +74,25 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
   return command + " --out " + shell_word(folder);
 }
 
-std::filesystem::path export_lab(const Snapshot& snapshot, const ViewSettings& view,
-                                 const ExportForm& form, const std::string& scene) {
+LabExport export_lab(const Snapshot& snapshot, const ViewSettings& view, const ExportForm& form,
+                     const std::string& scene, const Reference* reference) {
   Snapshot chosen = snapshot;
   if (form.lane >= 0 && std::size_t(form.lane) < snapshot.lanes.size()) {
     chosen.lanes = {snapshot.lanes[std::size_t(form.lane)]};
   }
-  const std::string command = reproducing_command(chosen, view, scene, form.folder);
-  StagedFiles files(form.folder);
-  write_lab_files(files, chosen, view, command, std::nullopt);
-  files.write("command.txt", command + "\n");
+  const std::filesystem::path folder = form.folder;
+  StagedFiles files(folder);
+  const bool named = stage_reference(files, reference);
+  const std::string command = reproducing_command(
+      chosen, view, scene, form.folder, named ? folder / reference_file : std::filesystem::path());
+  LabExport done{std::filesystem::absolute(folder).lexically_normal(), ""};
+  if (chosen.reference && !named) {
+    done.lacks = "command.txt needs --reference: the reference that was used is in no file";
+  }
+  write_lab_files(files, chosen, view, command, std::nullopt, reference);
+  files.write("command.txt", command + (done.lacks.empty() ? "\n" : "\n# " + done.lacks + "\n"));
   files.commit();
-  return std::filesystem::absolute(form.folder).lexically_normal();
+  return done;
 }
 
 }  // namespace quartet

@@ -23,7 +23,7 @@ std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed);
 /// The truth that pictures are compared with: a uniform picture of many samples, in two halves that
 /// know nothing of each other, or somebody else's picture.
 struct Reference {
-  std::filesystem::path path;  ///< where it was read from, may be empty
+  std::filesystem::path path;  ///< the file that it is in, may be empty
   RadianceImage image;
   /// The pictures of samples of one seed each; their mean is `image`. Empty for a picture of
   /// another program.

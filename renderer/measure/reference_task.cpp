@@ -26,8 +26,9 @@ constexpr auto status_interval = std::chrono::milliseconds(250);
 /// A reference in the making.
 struct Making {
   ReferenceRender render;
-  std::filesystem::path file;  ///< in the cache; empty without one
-  std::uint64_t cached_spp = 0;
+  std::filesystem::path file;    ///< in the cache; empty without one
+  std::uint64_t cached_spp = 0;  ///< that were put there, or could not be
+  std::uint64_t file_spp = 0;    ///< that are there
 };
 
 /// What is kept between two requests, used on the task's thread alone.
@@ -116,6 +117,7 @@ void Shelf::prepare(const ReferenceRequest& request) {
     if (auto sums = cached ? sums_of(read_exr(file), file) : std::nullopt) {
       making->render.resume(std::move(*sums), file);
       making->cached_spp = making->render.sums().spp;
+      making->file_spp = making->cached_spp;
     }
     making_ = std::move(making);
     made_ = request;
@@ -126,7 +128,10 @@ void Shelf::prepare(const ReferenceRequest& request) {
 }
 
 void Shelf::show(const ReferenceRequest& request) {
-  std::shared_ptr<const Reference> made = making_->render.reference();
+  auto made = std::make_shared<Reference>(reference_of(making_->render.sums()));
+  if (making_->file_spp == made->spp) {
+    made->path = making_->file;
+  }
   check_reference(*made, request.scene->scene(), request.settings);
   status_.reference = std::move(made);
 }
@@ -160,8 +165,8 @@ void Shelf::compute(const ReferenceRequest& request, const std::stop_token& stop
       const bool enough = sums.spp >= request.spp;
       const std::uint64_t last = status_.reference ? status_.reference->spp : 0;
       if (enough || sums.spp >= std::max(first_shown_spp, 2 * last)) {
-        show(request);
         save();
+        show(request);  // knows the file that it is in
         published = {};
       }
     }
@@ -185,6 +190,7 @@ void Shelf::save() {
     write_exr(files.stage(making_->file.filename().string()),
               exr_of(making_->render.sums(), "quartet"));
     files.commit();
+    making_->file_spp = making_->cached_spp;
   } catch (const std::exception& error) {
     status_.error = fmt::format("the reference is not cached: {}", error.what());
   }

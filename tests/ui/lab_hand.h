@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,8 +21,12 @@ namespace quartet {
 /// process. Widgets are found by the names that the window records.
 class LabHand {
  public:
-  explicit LabHand(int width = 1600, int height = 1000)
-      : offscreen_(width, height), driver_(small_lab(), offscreen_.gl(), [] {}) {
+  /// References are cached in `reference_cache`, if it is not empty.
+  explicit LabHand(int width = 1600, int height = 1000,
+                   const std::filesystem::path& reference_cache = {})
+      : offscreen_(width, height),
+        driver_(
+            small_lab(), offscreen_.gl(), [] {}, reference_cache) {
     ImGui::GetIO().DisplaySize = {float(width), float(height)};
     add_mouse_position(-100.0f, -100.0f);
     settle();

@@ -270,24 +270,6 @@ TEST(LabWindow, AFailureCaseComesWithItsViewAndSaysWhatToLookAt) {
   EXPECT_EQ(hand.driver().error(), "");
 }
 
-TEST(LabWindow, ExportSaysWhereAndHowToRepeatIt) {
-  const TempFolder folder;
-  LabHand hand;
-  hand.drag("lane1.threshold0", 12.0f);
-  hand.settle();
-  hand.state().export_form.folder = (folder / "out").string();
-  hand.key('s');
-  hand.frames(3);
-  hand.click("export.save");
-  ASSERT_EQ(hand.window().message().kind, Message::Kind::notice) << hand.window().message().text;
-  for (const char* name : {"images.png", "images.pdf", "heatmaps.png", "kl.exr", "command.txt"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
-  }
-  const std::string command = bytes_of(folder / "out" / "command.txt");
-  EXPECT_NE(command.find("--size 96x54"), std::string::npos) << command;
-  EXPECT_NE(command.find("--frames 5"), std::string::npos) << command;
-}
-
 TEST(LabWindow, TheScaleOfTextAndControlsChangesWhileItRuns) {
   LabHand hand;
   const float slider = hand.rect("lane0.threshold0").height;

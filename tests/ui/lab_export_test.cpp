@@ -1,0 +1,109 @@
+// What the window exports, and whether the command line beside it makes the same.
+
+#include "app/lab_export.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "renderer/image/exr.h"
+#include "tests/app/program.h"
+#include "tests/image/temp_folder.h"
+#include "tests/ui/lab_hand.h"
+
+namespace quartet {
+namespace {
+
+/// By the dialog, into this folder.
+void save(LabHand& hand, const std::filesystem::path& folder) {
+  hand.state().export_form.folder = folder.string();
+  hand.key('s');
+  hand.frames(3);
+  hand.click("export.save");
+  ASSERT_EQ(hand.window().message().kind, Message::Kind::notice) << hand.window().message().text;
+}
+
+/// Without "quartet".
+std::vector<std::string> words_of(const std::filesystem::path& command) {
+  std::istringstream text(bytes_of(command));
+  std::string word;
+  text >> word;
+  EXPECT_EQ(word, "quartet");
+  std::vector<std::string> words;
+  while (text >> word) {
+    words.push_back(word);
+  }
+  return words;
+}
+
+/// The last lane is one that looks at the truth.
+void compute_and_use_reference(LabHand& hand, std::uint64_t spp) {
+  hand.state().reference_form.spp = spp;
+  hand.key('d');
+  hand.click("dock.compute");
+  hand.settle();
+  ASSERT_TRUE(hand.state().request.reference);
+  hand.choose("lane3.estimator", "oracle");
+  hand.settle();
+}
+
+TEST(LabWindowExport, SaysWhereAndHowToRepeatIt) {
+  const TempFolder folder;
+  LabHand hand;
+  hand.drag("lane1.threshold0", 12.0f);
+  hand.settle();
+  hand.state().export_form.folder = (folder / "out").string();
+  hand.key('s');
+  hand.frames(3);
+  hand.click("export.save");
+  ASSERT_EQ(hand.window().message().kind, Message::Kind::notice) << hand.window().message().text;
+  for (const char* name : {"images.png", "images.pdf", "heatmaps.png", "kl.exr", "command.txt"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
+  }
+  const std::string command = bytes_of(folder / "out" / "command.txt");
+  EXPECT_NE(command.find("--size 96x54"), std::string::npos) << command;
+  EXPECT_NE(command.find("--frames 5"), std::string::npos) << command;
+}
+
+TEST(LabWindowExport, ALaneThatLooksAtTheTruthComesWithTheFileOfIt) {
+  const TempFolder folder;
+  const std::filesystem::path out = folder / "out";
+  LabHand hand(1600, 1000, folder / "cache");
+  compute_and_use_reference(hand, 64);
+  save(hand, out);
+  EXPECT_EQ(hand.window().message().text.find("--reference"), std::string::npos)
+      << hand.window().message().text;
+  const std::vector<std::string> words = words_of(out / "command.txt");
+  // More samples in the cache do not change what was exported.
+  hand.state().reference_form.spp = 96;
+  hand.click("reference");
+  hand.click("reference.compute");
+  hand.settle();
+
+  const ExrImage exported = read_exr(out / "oracle.exr");
+  std::filesystem::remove(out / "oracle.exr");
+  const Result again = run(words);
+  ASSERT_EQ(again.code, 0) << again.error;
+  const ExrImage repeated = read_exr(out / "oracle.exr");
+  ASSERT_NE(exported.find("SquaredError"), nullptr);
+  for (const char* channel : {"R", "SampleCount", "Error.oracle", "SquaredError"}) {
+    ASSERT_NE(repeated.find(channel), nullptr) << channel;
+    EXPECT_EQ(exported.find(channel)->pixels, repeated.find(channel)->pixels) << channel;
+  }
+}
+
+TEST(LabWindowExport, SaysThatAReferenceIsInNoFile) {
+  const TempFolder folder;
+  LabHand hand;  // without a cache
+  compute_and_use_reference(hand, 64);
+  save(hand, folder / "out");
+  const std::string& said = hand.window().message().text;
+  EXPECT_NE(said.find("needs --reference"), std::string::npos) << said;
+  const std::string command = bytes_of(folder / "out" / "command.txt");
+  EXPECT_EQ(command.find(" --reference"), command.rfind(" --reference"));
+  EXPECT_NE(command.find("\n# command.txt needs --reference"), std::string::npos) << command;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "reference.exr"));
+}
+
+}  // namespace
+}  // namespace quartet
