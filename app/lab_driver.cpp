@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/lab_export.h"
+#include "ui/read_out.h"
 
 namespace quartet {
 
@@ -20,6 +21,7 @@ LabDriver::LabDriver(LabState state, const GlFunctions& gl, std::function<void()
       references_(reference_work(reference_cache, [this] { return session_.busy(); }), wake),
       reference_(references_.latest()),
       evaluations_(evaluation_work(), wake),
+      rejected_samples_(rejected_work(), wake),
       equaliser_(equalise_work(), wake) {
 }
 
@@ -64,7 +66,7 @@ bool LabDriver::draw(double seconds) {
   const LabOrders orders =
       window_.draw({snapshot_, session_.status(), loader_.busy(),
                     answered ? reference_->output : ReferenceStatus(), pending,
-                    evaluations_.latest()->output, keep_equalising(), seconds});
+                    evaluations_.latest()->output, keep_equalising(), rejected(), seconds});
   if (orders.load_scene) {
     loader_.load(*orders.load_scene);
   }
@@ -92,6 +94,7 @@ bool LabDriver::draw(double seconds) {
     request_ = session_.submit(wanted);
   }
   evaluate();
+  look_for_rejected();
   return orders.animate || orders.load_scene || orders.save;
 }
 
@@ -167,6 +170,35 @@ void LabDriver::evaluate() {
     evaluated_ = input;
     evaluation_request_ = evaluations_.submit(std::move(input));
   }
+}
+
+/// All lanes take the same samples of a pixel, so that the first rejected one is the same in all
+/// that have got as far.
+void LabDriver::look_for_rejected() {
+  const auto pixel = read_out_pixel(window_.state(), snapshot_.get());
+  if (!pixel) {
+    return;
+  }
+  const auto at = std::size_t(pixel->y) * std::size_t(snapshot_->width) + std::size_t(pixel->x);
+  RejectedQuery query{snapshot_->scene, snapshot_->settings, *pixel, 0};
+  for (const LaneSnapshot& lane : snapshot_->lanes) {
+    if (!lane.rejected.empty() && lane.rejected[at] > 0) {
+      query.count = std::max(query.count, lane.taken[at]);
+    }
+  }
+  if (query.count > 0 && !query.same_pixel(rejected_query_)) {
+    rejected_query_ = query;
+    rejected_request_ = rejected_samples_.submit(std::move(query));
+  }
+}
+
+std::optional<RejectedSample> LabDriver::rejected() const {
+  const auto latest = rejected_samples_.latest();
+  const auto pixel = read_out_pixel(window_.state(), snapshot_.get());
+  const bool current =
+      pixel && latest->input == rejected_request_ &&
+      rejected_query_.same_pixel({snapshot_->scene, snapshot_->settings, *pixel, 0});
+  return current ? latest->output : std::nullopt;
 }
 
 bool LabDriver::settled() const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/gl_textures.h"
@@ -12,6 +13,7 @@
 #include "renderer/measure/equalise_task.h"
 #include "renderer/measure/evaluation.h"
 #include "renderer/measure/reference_task.h"
+#include "renderer/measure/rejected_sample.h"
 #include "ui/lab_window.h"
 
 namespace quartet {
@@ -48,11 +50,14 @@ class LabDriver {
   /// Why something that was asked for cannot be had; empty if all is well.
   std::string error() const;
   const std::shared_ptr<const Snapshot>& snapshot() const { return snapshot_; }
+  /// A rejected sample of the pixel that is read out, if there is one and it was found.
+  std::optional<RejectedSample> rejected() const;
 
  private:
   void ask_for_reference(ReferenceRequest request);
   void keep_reference_current();
   void evaluate();
+  void look_for_rejected();
   void equalise(const EqualiseOrder& order);
   EqualiseProgress keep_equalising();
   void save(const ExportForm& form);
@@ -73,6 +78,10 @@ class LabDriver {
   EvaluationTask evaluations_;
   EvaluationInput evaluated_;
   std::uint64_t evaluation_request_ = 0;
+
+  RejectedTask rejected_samples_;
+  RejectedQuery rejected_query_;
+  std::uint64_t rejected_request_ = 0;
 
   EqualiseTask equaliser_;
   EqualiseRequest equalised_;

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <numeric>
 
 #include "renderer/adaptive/lab.h"
-#include "renderer/trace/running_mean.h"
+#include "renderer/measure/rejected_sample.h"
 
 namespace quartet {
 namespace {
@@ -28,20 +29,13 @@ void report_rejected(const Snapshot& snapshot, const RunOptions& options) {
                   most->rejected.begin());
   const int x = int(pixel) % snapshot.width;
   const int y = int(pixel) / snapshot.width;
-  const SampleSource source = sample_source(snapshot.scene, snapshot.settings);
-  glm::vec3 sample(0.0f);
-  std::uint32_t index = 0;
-  while (index + 1 < most->taken[pixel]) {
-    source(x, y, index, std::span(&sample, 1));
-    if (!acceptable(sample)) {
-      break;
-    }
-    ++index;
-  }
+  const auto index =
+      first_rejected(sample_source(snapshot.scene, snapshot.settings), x, y, most->taken[pixel]);
+  assert(index);  // it is one of those that the lane has taken
   fmt::print(stderr,
              "quartet: warning: {} samples were NaN, infinite or negative and left out; the first: "
              "quartet trace {} --pixel {},{} --index {}\n",
-             total_rejected(*most), scene_words(options), x, y, index);
+             total_rejected(*most), scene_words(options), x, y, index.value_or(0));
 }
 
 }  // namespace quartet

@@ -10,6 +10,7 @@
 #include "renderer/adaptive/session.h"
 #include "renderer/measure/evaluation.h"
 #include "renderer/measure/reference_task.h"
+#include "renderer/measure/rejected_sample.h"
 #include "ui/lab_state.h"
 #include "ui/theme.h"
 
@@ -68,6 +69,7 @@ struct LabFrame {
   const ReferenceStatus& reference;
   const Evaluation& evaluation;
   const EqualiseProgress& equalising;
+  const std::optional<RejectedSample>& rejected;  ///< of the pixel that is read out, once known
   PictureCache& pictures;
   Message& message;
   LabOrders& orders;

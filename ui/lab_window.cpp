@@ -201,6 +201,7 @@ LabOrders LabWindow::draw(const LabInput& input) {
                  input.reference,
                  input.evaluation,
                  input.equalising,
+                 input.rejected,
                  pictures_,
                  message_,
                  orders};

@@ -18,7 +18,8 @@ struct LabInput {
   bool reference_pending = false;  ///< whether there is one will be known soon
   Evaluation evaluation;           ///< the newest; of any snapshot, also an older one
   EqualiseProgress equalising;
-  double seconds = 0.0;  ///< on any clock
+  std::optional<RejectedSample> rejected;  ///< of the pixel that is read out, once it is found
+  double seconds = 0.0;                    ///< on any clock
 };
 
 /// The lab window: what it looks like and what it does with mouse and keys. It knows no thread and

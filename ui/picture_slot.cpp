@@ -278,7 +278,8 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
                drawn ? picture->view.image.height() : 0);
   draw_well(frame, slot.box, drawn ? picture : nullptr);
   draw_pixels(frame, slot, picture, slot.box);
-  if (const auto pixel = read_out_pixel(frame); slot.read_out && drawn && pixel) {
+  if (const auto pixel = read_out_pixel(frame.state, frame.snapshot);
+      slot.read_out && drawn && pixel) {
     draw_read_out(frame, slot, *pixel);
   }
   list.ChannelsMerge();
@@ -313,7 +314,7 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
     right_of_line.source = b.source;
     draw_pixels(frame, right_of_line, picture, right);
   }
-  if (const auto pixel = read_out_pixel(frame); picture && pixel) {
+  if (const auto pixel = read_out_pixel(frame.state, frame.snapshot); picture && pixel) {
     draw_wipe_read_out(frame, a, b, *pixel);
   }
   list.AddLine({line, a.box.y}, {line, a.box.bottom()}, IM_COL32(255, 255, 255, lit ? 255 : 200),

@@ -86,18 +86,26 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
   return {fmt::format("{}", values.taken)};
 }
 
-std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values) {
+std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values,
+                                        std::optional<std::uint32_t> rejected_index) {
   const std::string error = error_text(row, values);
   const std::string times = short_number(values.relative_error);
-  const std::string rejected =
-      values.rejected > 0 ? fmt::format(" · {} rejected", values.rejected) : "";
+  std::string rejected;
+  std::string briefly;
+  if (values.rejected > 0) {
+    rejected = briefly = fmt::format(" · {} rejected", values.rejected);
+    if (rejected_index && *rejected_index < values.taken) {
+      rejected += fmt::format(", first: index {}", *rejected_index);
+      briefly += fmt::format(" (index {})", *rejected_index);
+    }
+  }
   if (row.channels == 0) {
-    const std::string text = fmt::format("{} spp{}", values.taken, rejected);
-    return {text, text, text};
+    const std::string text = fmt::format("{} spp", values.taken);
+    return {text + rejected, text + rejected, text + briefly};
   }
   return {fmt::format("{} spp · error {} = {} × threshold{}", values.taken, error, times, rejected),
           fmt::format("{} spp · error {} ({}×){}", values.taken, error, times, rejected),
-          fmt::format("{} spp · error {}×{}", values.taken, times, rejected)};
+          fmt::format("{} spp · error {}×{}", values.taken, times, briefly)};
 }
 
 }  // namespace quartet

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
                                      std::size_t other, int x, int y);
 
 /// Samples, error and rejected samples of a pixel: three texts, from the longest to the shortest.
-std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values);
+/// `rejected_index` is that of the first rejected sample, once it is known.
+std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values,
+                                        std::optional<std::uint32_t> rejected_index);
 
 }  // namespace quartet

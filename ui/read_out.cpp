@@ -22,8 +22,10 @@ ReadOut read_out(const LabFrame& frame, std::size_t source, glm::ivec2 pixel) {
   const auto index =
       std::size_t(pixel.y) * std::size_t(frame.snapshot->width) + std::size_t(pixel.x);
   const PixelValues values = pixel_values(lane, index);
+  const bool known = frame.rejected && frame.rejected->pixel == pixel;
   return {fmt::format("{}, {}   rgb {}", pixel.x, pixel.y, three_numbers(values.radiance)),
-          read_out_texts(estimator(lane.policy.estimator), values)};
+          read_out_texts(estimator(lane.policy.estimator), values,
+                         known ? std::optional(frame.rejected->index) : std::nullopt)};
 }
 
 float read_out_line(const Ui& ui) {
@@ -56,11 +58,10 @@ float read_out_room(const Ui& ui, const PictureSlot& slot) {
 
 }  // namespace
 
-std::optional<glm::ivec2> read_out_pixel(const LabFrame& frame) {
-  const std::optional<glm::ivec2> pixel =
-      frame.state.hovered ? frame.state.hovered : frame.state.pinned;
-  const bool inside = pixel && frame.snapshot && pixel->x < frame.snapshot->width &&
-                      pixel->y < frame.snapshot->height;
+std::optional<glm::ivec2> read_out_pixel(const LabState& state, const Snapshot* snapshot) {
+  const std::optional<glm::ivec2> pixel = state.hovered ? state.hovered : state.pinned;
+  const bool inside =
+      pixel && snapshot && pixel->x < snapshot->width && pixel->y < snapshot->height;
   return inside ? pixel : std::nullopt;
 }
 

@@ -1,12 +1,16 @@
 // The pictures of the window and how they are looked at: pan and zoom, the pixel under the mouse,
 // layouts, views, the camera.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
+#include "renderer/scene/load_scene.h"
+#include "tests/app/program.h"
 #include "tests/ui/lab_hand.h"
+#include "ui/pixel_text.h"
 
 namespace quartet {
 namespace {
@@ -42,6 +46,67 @@ TEST(LabPictures, AClickPinsThePixelUnderTheMouse) {
   }
   hand.key(key_escape);
   EXPECT_FALSE(hand.state().pinned);
+}
+
+TEST(LabPictures, ARejectedSampleOfThePixelIsNamedAndCanBeTraced) {
+  LabHand hand;
+  const std::string scene = "synthetic:non-finite";
+  set_scene(hand.state(), std::make_shared<const TraceScene>(open_scene(scene)));
+  hand.state().request.settings.width = 48;
+  hand.state().request.settings.height = 27;
+  hand.settle();
+  const LaneSnapshot& lane = hand.snapshot().lanes[1];
+  ASSERT_FALSE(lane.rejected.empty());
+  const auto at = std::ranges::find_if(lane.rejected, [](std::uint32_t n) { return n > 0; }) -
+                  lane.rejected.begin();
+  const glm::ivec2 pixel(int(at) % 48, int(at) / 48);
+  EXPECT_FALSE(hand.driver().rejected());
+  hand.state().pinned = pixel;
+  hand.frame();
+  const auto counted = hand.pixels("lane1.slot0.read_out");
+  for (int i = 0; i < 2000 && !hand.driver().rejected(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hand.frame();
+  }
+  hand.frames(2);
+  const auto found = hand.driver().rejected();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->pixel, pixel);
+  EXPECT_LT(found->index, lane.taken[std::size_t(at)]);
+  EXPECT_NE(hand.pixels("lane1.slot0.read_out"), counted) << "the strip says which";
+  const Result traced =
+      run({"trace", scene, "--size", "48x27", "--pixel", fmt::format("{},{}", pixel.x, pixel.y),
+           "--index", std::to_string(found->index)});
+  EXPECT_EQ(traced.code, 0) << traced.error;
+  EXPECT_NE(traced.out.find("rejected, no film takes it"), std::string::npos) << traced.out;
+  // A pixel whose samples are all good has none.
+  const auto good = std::ranges::find(lane.rejected, 0u) - lane.rejected.begin();
+  hand.state().pinned = glm::ivec2(int(good) % 48, int(good) / 48);
+  hand.frames(3);
+  EXPECT_FALSE(hand.driver().rejected());
+}
+
+TEST(LabPictures, TheReadOutCountsRejectedSamplesAndNamesTheFirst) {
+  PixelValues values;
+  values.taken = 20;
+  values.error_channels = 1;
+  for (const Estimator& row : {estimator(EstimatorId::kl), estimator(EstimatorId::uniform)}) {
+    values.rejected = 0;
+    for (const std::string& text : read_out_texts(row, values, 7)) {
+      EXPECT_EQ(text.find("reject"), std::string::npos) << text;
+    }
+    values.rejected = 2;
+    for (const std::string& text : read_out_texts(row, values, std::nullopt)) {
+      EXPECT_TRUE(text.ends_with(" · 2 rejected")) << text;
+    }
+    for (const std::string& text : read_out_texts(row, values, 7)) {
+      EXPECT_NE(text.find(" · 2 rejected"), std::string::npos) << text;
+      EXPECT_NE(text.find("index 7"), std::string::npos) << text;
+    }
+    for (const std::string& text : read_out_texts(row, values, 20)) {
+      EXPECT_TRUE(text.ends_with(" · 2 rejected")) << "sample 20 was not taken: " << text;
+    }
+  }
 }
 
 TEST(LabPictures, LayoutsShowTheirLanes) {
