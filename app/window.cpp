@@ -218,7 +218,10 @@ void Window::run() {
   int frames = frames_after_input;
   bool animate = false;
   double drawn = -1.0;
-  while (!glfwWindowShouldClose(native_->window) && !native_->handlers.wants_to_close()) {
+  const auto closing = [&] {
+    return glfwWindowShouldClose(native_->window) || native_->handlers.wants_to_close();
+  };
+  while (!closing()) {
     const bool typing = ImGui::GetIO().WantTextInput;  // its cursor blinks
     const double wait = frames > 0 ? 0.0 : animate ? 0.03 : typing ? 0.25 : 60.0;
     const double rest = drawn + shortest_frame - glfwGetTime();
@@ -230,7 +233,7 @@ void Window::run() {
     } else if (woken || animate || typing) {
       frames = std::max(frames, 1);
     }
-    if (frames == 0 || glfwGetTime() < drawn + 0.9 * shortest_frame) {
+    if (frames == 0 || glfwGetTime() < drawn + 0.9 * shortest_frame || closing()) {
       continue;
     }
     --frames;

@@ -314,11 +314,11 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
     right_of_line.source = b.source;
     draw_pixels(frame, right_of_line, picture, right);
   }
+  list.AddLine({line, a.box.y}, {line, a.box.bottom()}, IM_COL32(255, 255, 255, lit ? 255 : 200),
+               frame.ui.px(lit ? 2.5f : 1.5f));
   if (const auto pixel = read_out_pixel(frame.state, frame.snapshot); picture && pixel) {
     draw_wipe_read_out(frame, a, b, *pixel);
   }
-  list.AddLine({line, a.box.y}, {line, a.box.bottom()}, IM_COL32(255, 255, 255, lit ? 255 : 200),
-               frame.ui.px(lit ? 2.5f : 1.5f));
   const float y = a.box.y + frame.ui.px(6.0f);
   badge(frame.ui, line + frame.ui.px(6.0f), y, lane_color(b.source),
         fmt::format("B: lane {}", b.source + 1));

@@ -182,7 +182,8 @@ float leading_label(const Ui& ui, const std::string& text) {
 }
 
 void tooltip(const Ui& ui, const std::string& text) {
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || text.empty()) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive() ||
+      text.empty()) {
     return;
   }
   ImGui::BeginTooltip();

@@ -40,7 +40,7 @@ bool combo(Ui& ui, const std::string& name, const std::string& shown, float widt
 bool combo_row(Ui& ui, const std::string& name, const std::string& label, bool chosen,
                const std::string& tooltip = "");
 
-/// Of the last item, wrapped, after a moment.
+/// Of the last item, wrapped; not while it is held, as it would lie over the number that changes.
 void tooltip(const Ui& ui, const std::string& text);
 
 /// Dim text before a control, level with what stands in it; moves the cursor past it and returns by

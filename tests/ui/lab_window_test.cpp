@@ -304,6 +304,17 @@ TEST(LabWindow, SlidersAreLongEnoughForAHandInTheSmallestWindow) {
   }
 }
 
+TEST(LabWindow, NoTooltipLiesOverTheNumberOfASliderThatIsHeld) {
+  LabHand hand(1280, 720);
+  const auto alone = hand.pixels("lane1.threshold0.number");
+  const ScreenRect knob = hand.rect("lane1.threshold0");
+  hand.move(knob.center_x(), knob.center_y());
+  EXPECT_NE(hand.pixels("lane1.threshold0.number"), alone) << "the tooltip, where it would lie";
+  hand.press(true);
+  EXPECT_EQ(hand.pixels("lane1.threshold0.number"), alone);
+  hand.press(false);
+}
+
 TEST(LabWindow, ASliderKeepsItsLengthWhileTheNumbersBesideItChange) {
   LabHand hand(1280, 720);
   hand.state().layout = LabLayout::grid;
