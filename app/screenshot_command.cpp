@@ -1,16 +1,17 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "app/commands.h"
 #include "app/imgui_screen.h"
 #include "app/interrupt.h"
 #include "app/lab_driver.h"
-#include "app/lab_run.h"
 #include "app/lane_option.h"
 #include "app/number_check.h"
 #include "app/offscreen.h"
@@ -20,6 +21,7 @@
 #include "app/stop_options.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
+#include "renderer/measure/stop_conditions.h"
 #include "renderer/table.h"
 #include "ui/lab_layout.h"
 
@@ -40,17 +42,69 @@ struct ScreenshotOptions {
   std::string output;
 };
 
-/// The window shows all lanes at one frame: the one where the last of them meets its end. To know
-/// it of anything but a number of frames takes a run of its own.
-std::uint32_t frame_of_end(const StopConditions& stop, const Run& run,
-                           std::span<const SamplingPolicy> policies) {
-  if (stop.frames && !stop.spp && !stop.seconds && !stop.error) {
-    return *stop.frames;
+/// The window shows all lanes at one frame: the one where the last of them meets its end. Of
+/// anything but a number of frames it is known only once the lanes are past it: then the window
+/// scrubs back to it, as a user would.
+class EndSeeker {
+ public:
+  EndSeeker(const StopConditions& stop, MetricId shown_metric, LabState& state)
+      : stop_(stop), shown_metric_(shown_metric) {
+    if (stop.frames && !stop.spp && !stop.seconds && !stop.error) {
+      frame_ = stop.frames;
+      state.playback.set_target(*stop.frames);
+      return;
+    }
+    // No further than this before the reference is there.
+    state.playback.set_target(1);
+    if (stop.error) {
+      state.request.metric = stop.error->metric;
+    }
   }
-  Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
-          run.lab);
-  return run_to_end(lab, stop, run.lab.reference).frame;
-}
+
+  /// After each draw of the window.
+  void look(LabDriver& driver) {
+    LabState& state = driver.window().state();
+    if (frame_) {
+      return;
+    }
+    if (state.playback.target() == 1) {
+      if (driver.settled()) {
+        state.playback.set_target(Playback::no_end);
+      }
+      return;
+    }
+    std::uint32_t last = 1;
+    for (const LaneSnapshot& lane : driver.snapshot()->lanes) {
+      const std::optional<std::uint32_t> end = stop_.end_of(lane);
+      if (!end) {
+        return;
+      }
+      last = std::max(last, *end);
+    }
+    frame_ = last;
+    state.playback.set_target(last);
+    state.request.metric = shown_metric_;
+  }
+
+  bool found() const { return frame_.has_value(); }
+
+  /// How far the hindmost lane is, in [0, 1].
+  double progress(const Snapshot& snapshot) const {
+    if (frame_) {
+      return std::min(1.0, double(snapshot.frame) / double(*frame_));
+    }
+    double least = 1.0;
+    for (const LaneSnapshot& lane : snapshot.lanes) {
+      least = std::min(least, stop_.progress(lane));
+    }
+    return least;
+  }
+
+ private:
+  StopConditions stop_;
+  MetricId shown_metric_;
+  std::optional<std::uint32_t> frame_;
+};
 
 LabState state_of(const ScreenshotOptions& options, const Run& run) {
   LabState state = initial_state();
@@ -85,12 +139,11 @@ void run_screenshot(const ScreenshotOptions& options) {
   }
   const PictureSize size = parse_size("--size", options.window);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  Run run = prepare_run(options.run, lane_count);
+  const Run run = prepare_run(options.run, lane_count);
   LabState state = state_of(options, run);
-  run.lab.reference = truth_for(state.request.policies, reference_at(options.reference, run));
+  truth_for(state.request.policies, reference_at(options.reference, run));  // throws if it is unfit
   StagedFiles files(output.parent_path());
-  const std::uint32_t frames = frame_of_end(stop, run, state.request.policies);
-  state.playback.set_target(frames);
+  EndSeeker end(stop, state.request.metric, state);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};
@@ -108,18 +161,23 @@ void run_screenshot(const ScreenshotOptions& options) {
   draw();
   const Interrupt interrupt;
   Progress progress("rendering");
-  while (!driver.settled()) {
+  while (!end.found() || !driver.settled()) {
     if (interrupt.token().stop_requested()) {
       throw Interrupted();
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     draw();
-    const std::uint32_t frame = driver.snapshot() ? driver.snapshot()->frame : 0;
-    progress.update(double(frame) / double(frames), fmt::format("frame {} of {}", frame, frames));
+    if (driver.snapshot()) {
+      end.look(driver);
+      progress.update(end.progress(*driver.snapshot()),
+                      fmt::format("frame {}", driver.snapshot()->frame));
+    }
     if (const std::string error = driver.error(); !error.empty()) {
       throw std::runtime_error(error);
     }
   }
+  // The slider of frames ends where the lanes do, though they have been further.
+  driver.window().state().playback.forget();
   // What is idle says so, and what is laid out by its own size is in its place.
   for (int i = 0; i < 3; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(40));

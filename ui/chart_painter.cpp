@@ -81,7 +81,8 @@ void draw_ticks(const Ui& ui, const Mapping& map, const ScreenRect& box) {
     if (y < area.bottom() - 1 && y > area.y + 1) {
       list.AddLine({area.x, y}, {area.right(), y}, IM_COL32(255, 255, 255, 14));
     }
-    const float top = std::clamp(y - 0.5f * line, area.y - ui.px(2.0f), area.bottom() - line);
+    const float top =
+        std::clamp(y - 0.5f * line, area.y - ui.px(2.0f), area.bottom() - line + ui.px(4.0f));
     if (top + line <= above) {
       text_left_of(ui.small, area.x - ui.px(4.0f), top, palette::dim, tick.label);
       above = top;

@@ -80,4 +80,32 @@ double StopConditions::progress(const Lane& lane, const RadianceImage* reference
   return progress(lane.history().back(), lane.film().size(), measured_error);
 }
 
+double StopConditions::progress(const LaneSnapshot& lane) const {
+  if (lane.history.empty()) {
+    return 0.0;
+  }
+  return lane.plan.total == 0 ? 1.0 : progress_at(lane, lane.history.size() - 1);
+}
+
+double StopConditions::progress_at(const LaneSnapshot& lane, std::size_t record) const {
+  const FrameRecord& then = lane.history[record];
+  if (error && lane.true_errors.empty()) {
+    StopConditions others = *this;
+    others.error.reset();
+    return others.progress(then, lane.taken.size(), 0.0);
+  }
+  return progress(then, lane.taken.size(), error ? lane.true_errors[record] : 0.0);
+}
+
+std::optional<std::uint32_t> StopConditions::end_of(const LaneSnapshot& lane) const {
+  for (std::size_t i = 0; i < lane.history.size(); ++i) {
+    const FrameRecord& record = lane.history[i];
+    const bool nothing_more = lane.plan.total == 0 && record.samples == lane.history.back().samples;
+    if (nothing_more || progress_at(lane, i) >= 1.0) {
+      return record.frame;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace quartet

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "renderer/adaptive/lane.h"
+#include "renderer/adaptive/snapshot.h"
 #include "renderer/measure/metrics.h"
 
 namespace quartet {
@@ -40,6 +41,16 @@ struct StopConditions {
   /// (std::invalid_argument without one). At the end also where no pixel wants another sample,
   /// since no condition would ever be met.
   double progress(const Lane& lane, const RadianceImage* reference) const;
+
+  /// The same for a lane as it was at the end of a frame. Its true errors are in the metric of the
+  /// target; without any, that target is not looked at.
+  double progress(const LaneSnapshot& lane) const;
+
+  /// The frame where the lane met its end, of those that its history keeps; nothing if it has not.
+  std::optional<std::uint32_t> end_of(const LaneSnapshot& lane) const;
+
+ private:
+  double progress_at(const LaneSnapshot& lane, std::size_t record) const;
 };
 
 }  // namespace quartet

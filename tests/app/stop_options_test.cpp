@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "renderer/image/exr.h"
+#include "renderer/image/png.h"
 #include "renderer/measure/reference.h"
 #include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
@@ -114,6 +115,51 @@ TEST_F(StopOptions, EachLaneOfAFigureHasAnEndOfItsOwn) {
   }
   EXPECT_EQ(json.at("lanes")[0].at("history").size(), 12u);
   EXPECT_LT(json.at("lanes")[2].at("history").size(), 12u) << "contrast takes more a frame";
+}
+
+TEST_F(StopOptions, AScreenshotShowsAllLanesWhereTheLastOneEnds) {
+  make_reference();
+  const std::vector<std::vector<std::string>> conditions{
+      {"--spp", "12"}, {"--error", "relmse=0.1", "--reference", path("ref.exr")}};
+  for (const std::vector<std::string>& condition : conditions) {
+    SCOPED_TRACE(condition.front());
+    const Result figure = run(with({"figure", "cornell-box", "--size", "20x15", "--estimators",
+                                    "uniform,kl,contrast", "--out", path("out")},
+                                   condition));
+    ASSERT_EQ(figure.code, 0) << figure.error;
+    std::size_t last = 0;
+    const auto json = nlohmann::json::parse(bytes_of(path("out/panels.json")));
+    for (const auto& lane : json.at("lanes")) {
+      last = std::max(last, lane.at("history").back().at("frame").get<std::size_t>());
+    }
+    ASSERT_GT(last, 2u);
+    // Of the lanes' pictures and heatmaps: times differ from run to run.
+    const auto pictures = [&](const std::vector<std::string>& more) {
+      const Result shot =
+          run(with({"screenshot", "cornell-box", "--render-size", "20x15", "--estimators",
+                    "uniform,kl,contrast", "--size", "1280x720", "-o", path("shot.png")},
+                   more));
+      EXPECT_EQ(shot.code, 0) << shot.error;
+      const DisplayImage image = read_png(path("shot.png"));
+      std::vector<Rgba8> inside;
+      for (int y = 200; y < 380; ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+          inside.push_back(image.at(x, y));
+        }
+      }
+      return inside;
+    };
+    const auto of_frame = [&](std::size_t frame) {
+      std::vector<std::string> words{"--frames", std::to_string(frame)};
+      if (condition.size() > 2) {  // the dock takes the same room
+        words.insert(words.end(), {"--reference", path("ref.exr")});
+      }
+      return pictures(words);
+    };
+    const std::vector<Rgba8> found = pictures(condition);
+    EXPECT_EQ(found, of_frame(last));
+    EXPECT_NE(found, of_frame(last - 1));
+  }
 }
 
 TEST_F(StopOptions, WrongUsageOfEveryCommandThatHasThem) {

@@ -113,6 +113,45 @@ TEST(StopConditions, AlsoWhereNoPixelWantsMore) {
   EXPECT_EQ(frames_until(frames(1000), nullptr, policy), 5u);
 }
 
+/// The end of a lane that has long passed it, and where it would have stopped.
+void expect_end(std::uint32_t frame, const StopConditions& stop, const LaneSnapshot& lane) {
+  EXPECT_EQ(stop.end_of(lane), frame);
+  LaneSnapshot before = lane;
+  before.plan.total = 1;
+  before.history.resize(frame - 1);
+  EXPECT_EQ(stop.end_of(before), std::nullopt);
+  EXPECT_LT(stop.progress(before), 1.0);
+}
+
+TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
+  LaneSnapshot lane;
+  lane.taken.assign(pixels, 12);
+  lane.plan.total = 40;
+  for (std::uint32_t frame = 1; frame <= 12; ++frame) {
+    lane.history.push_back(record(frame, 2.0 * frame, 0.1 * frame));
+    lane.true_errors.push_back(1.0 / frame);
+  }
+  expect_end(7, frames(7), lane);
+  StopConditions stop;
+  stop.spp = 9.0;
+  expect_end(5, stop, lane);
+  stop.seconds = 0.25;
+  expect_end(3, stop, lane);
+  stop = frames(12);
+  stop.error = ErrorTarget{MetricId::mse, 0.125};
+  expect_end(8, stop, lane);
+  lane.true_errors.clear();
+  expect_end(12, stop, lane);
+  EXPECT_EQ(frames(13).end_of(lane), std::nullopt);
+  // No pixel wants more: the lane ended with its last samples.
+  lane.plan.total = 0;
+  for (std::size_t i = 9; i < 12; ++i) {
+    lane.history[i].samples = lane.history[8].samples;
+  }
+  expect_end(9, frames(100), lane);
+  EXPECT_EQ(frames(100).progress(lane), 1.0);
+}
+
 TEST(StopConditions, AnErrorTargetNeedsAReferenceOfTheSameSize) {
   const SamplingPolicy policy = default_policy(EstimatorId::uniform);
   Lab lab(alternate, 10, 10, std::span(&policy, 1));
