@@ -160,8 +160,8 @@ void draw_data(const Ui& ui, const Mapping& map) {
   for (const Level& level : map.chart.levels) {
     const float y = map.y(level.value);
     draw_dashes(ui, {{area.x, y}, {area.right(), y}}, screen_color(level.color));
-    text_at(ui.small, area.x + ui.px(4.0f), y - font_size(ui.small), screen_color(level.color),
-            level.label);
+    text_at(ui.small, area.x + ui.px(4.0f), y - font_size(ui.small) - ui.px(2.0f),
+            screen_color(level.color), level.label);
   }
   std::vector<ImVec2> points;
   for (const Line& line : map.chart.lines) {
