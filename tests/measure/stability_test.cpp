@@ -63,6 +63,16 @@ TEST(Stability, FindsTheBiasOfReuseAndNoneInModeUnbiased) {
   }
 }
 
+// All that a criterion is done with are pixels where eight samples passed beside the wires, because
+// the others reach the maximum first.
+TEST(Stability, WiresAreMissedByTheFirstSamples) {
+  const StabilitySummary summary =
+      summarize(run(small({"wires"}, {EstimatorId::confidence})), 0.01);
+  const Cell& cell = cell_of(summary, "wires", EstimatorId::confidence, Tuning::usual);
+  EXPECT_EQ(verdict(cell).id, "misses");
+  EXPECT_GT(cell.value("missed").low, 0.25);
+}
+
 TEST(Stability, MeetsTheBudgetWithEveryEstimator) {
   const std::vector<CaseResult> results =
       run(small({"bernoulli"}, {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2}));
