@@ -39,8 +39,9 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
                       text_of(trial.policy.estimator, trial.policy.thresholds), trial.seed,
                       trial.frames, outcome.seconds, outcome.mean_spp * pixels, outcome.mean_spp);
       for (const OutcomeColumn& column : outcome_columns()) {
-        if (column.id != "seconds" && column.id != "mean_spp") {
-          csv += fmt::format("{},{},{:.9g}\n", row, column.id, outcome.*column.value);
+        const double value = outcome.*column.value;
+        if (column.id != "seconds" && column.id != "mean_spp" && !std::isnan(value)) {
+          csv += fmt::format("{},{},{:.9g}\n", row, column.id, value);
         }
       }
     }
@@ -83,9 +84,7 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
   for (const VariationRow& variation : variations()) {
     if (const auto& change = cell.changes[std::size_t(variation.key)]) {
       number(fmt::format("cost_{}", variation.id), change->cost);
-      if (std::isfinite(change->error)) {
-        number(fmt::format("error_{}", variation.id), change->error);
-      }
+      number(fmt::format("error_{}", variation.id), change->error);
     }
   }
 }

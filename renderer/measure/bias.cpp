@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "renderer/measure/interval.h"
 #include "renderer/parallel.h"
 #include "renderer/trace/running_mean.h"
 
@@ -42,10 +42,6 @@ double mean_luminance(const RadianceImage& image) {
     sum += double(luminance(pixel));
   }
   return sum / double(image.size());
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 /// Sums over the seeds so far.

@@ -34,14 +34,6 @@ std::vector<double> values_of(const Trials& trials, double Outcome::*value) {
   return values;
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / double(values.size());
-}
-
 /// Standard deviation in relation to the mean.
 double spread_of(const std::vector<double>& values) {
   const double mean = mean_of(values);
@@ -52,6 +44,11 @@ double spread_of(const std::vector<double>& values) {
   return mean > 0.0 ? std::sqrt(squares / double(values.size() - 1)) / mean : 0.0;
 }
 
+/// What the others are compared with.
+Trials uniform_trials(const CaseResult& result, Variation variation) {
+  return select(result, EstimatorId::uniform, Tuning::budget, SampleUse::reuse, variation);
+}
+
 /// Where the truth is known exactly the energy is compared with it; else with that of uniform
 /// sampling with the same seeds, which is unbiased, shares samples and so much of the noise, and,
 /// unlike a rendered truth, has a noise that is seen in the spread over seeds.
@@ -59,9 +56,7 @@ BiasTest bias_of(const CaseResult& result, const Trials& trials, double Outcome:
                  double p) {
   std::vector<double> off = values_of(trials, energy);
   if (result.truth.spp > 0) {
-    const std::vector<double> uniform = values_of(
-        select(result, EstimatorId::uniform, Tuning::budget, SampleUse::reuse, Variation::none),
-        energy);
+    const std::vector<double> uniform = values_of(uniform_trials(result, Variation::none), energy);
     assert(uniform.size() == off.size());
     for (std::size_t i = 0; i < off.size(); ++i) {
       off[i] -= uniform[i];
@@ -73,8 +68,7 @@ BiasTest bias_of(const CaseResult& result, const Trials& trials, double Outcome:
 /// Ratio of error × time, which does not depend on how long either ran as long as errors fall as
 /// 1/samples: the geometric mean over seeds.
 Interval equal_time_of(const CaseResult& result, const Trials& trials, double p) {
-  const Trials uniform =
-      select(result, EstimatorId::uniform, Tuning::budget, SampleUse::reuse, Variation::none);
+  const Trials uniform = uniform_trials(result, Variation::none);
   std::vector<double> logs;
   for (const auto& [seed, trial] : trials) {
     const Outcome& ours = trial->outcome;
@@ -90,7 +84,7 @@ Interval equal_time_of(const CaseResult& result, const Trials& trials, double p)
 }
 
 /// In relation to the plain experiment with the same seeds.
-std::optional<Change> change_of(const Trials& plain, const Trials& varied, bool with_error) {
+std::optional<Change> change_of(const Trials& plain, const Trials& varied) {
   if (varied.empty()) {
     return std::nullopt;
   }
@@ -105,9 +99,7 @@ std::optional<Change> change_of(const Trials& plain, const Trials& varied, bool 
     error += trial->outcome.relmse;
     plain_error += before.relmse;
   }
-  return Change{cost / plain_cost, !with_error         ? std::numeric_limits<double>::quiet_NaN()
-                                   : plain_error > 0.0 ? error / plain_error
-                                                       : 1.0};
+  return Change{cost / plain_cost, plain_error > 0.0 ? error / plain_error : 1.0};
 }
 
 Interval audit_of(const Trials& trials, double p, double& audited) {
@@ -146,9 +138,13 @@ Cell cell_of(const CaseResult& result, EstimatorId estimator, Tuning tuning, dou
   cell.error_spread = spread_of(values_of(reuse, &Outcome::relmse));
   for (const VariationRow& row : variations()) {
     if (row.key != Variation::none) {
-      cell.changes[std::size_t(row.key)] =
-          change_of(reuse, of(SampleUse::reuse, row.key), row.key != Variation::resolution);
+      cell.changes[std::size_t(row.key)] = change_of(reuse, of(SampleUse::reuse, row.key));
     }
+  }
+  if (std::optional<Change>& enlarged = cell.changes[std::size_t(Variation::resolution)]) {
+    const std::optional<Change> uniform = change_of(uniform_trials(result, Variation::none),
+                                                    uniform_trials(result, Variation::resolution));
+    enlarged->error /= uniform->error > 0.0 ? uniform->error : 1.0;
   }
   return cell;
 }

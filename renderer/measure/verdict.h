@@ -21,8 +21,10 @@ struct BiasTest {
 
 /// How much cost and error change with a variation, as ratios; none if it was not tried.
 struct Change {
-  double cost = 1.0;   ///< mean samples per pixel
-  double error = 1.0;  ///< relmse; NaN where only the cost is known
+  double cost = 1.0;  ///< mean samples per pixel
+  /// relmse; with twice the resolution that of the shrunk picture, in whose pixels four times the
+  /// samples meet, over what becomes of uniform sampling by it.
+  double error = 1.0;
 };
 
 /// All that the study found of one estimator in one case with one tuning. Intervals are over seeds,
