@@ -89,7 +89,8 @@ bool run_to_end(Lab& lab, const std::stop_token& stop, const BeforeFrame& before
 
 Trial trial_of(const TrialSetup& setup, const Entry& entry, std::uint64_t seed, const Lane& lane,
                const Outcome& outcome) {
-  return {setup.failure, entry.tuning, entry.variation, seed, entry.policy, lane.frame(), outcome};
+  return {setup.failure, entry.tuning, entry.variation, seed,
+          entry.policy,  lane.frame(), outcome,         rejected_of(lane, seed)};
 }
 
 /// Runs lanes, of which the first is the oracle, to their ends and measures each; appends to

@@ -10,6 +10,7 @@
 
 #include "renderer/adaptive/policy.h"
 #include "renderer/measure/outcome.h"
+#include "renderer/measure/rejected.h"
 
 namespace quartet {
 
@@ -39,6 +40,7 @@ struct Trial {
   SamplingPolicy policy;
   std::uint32_t frames = 0;
   Outcome outcome;
+  RejectedSamples rejected;
 };
 
 /// What all trials of a case have in common. Policies must come to an end (not vote).

@@ -120,9 +120,8 @@ Cell cell_of(const CaseResult& result, EstimatorId estimator, Tuning tuning, dou
   const Trials unbiased = of(SampleUse::unbiased, Variation::none);
   Cell cell;
   cell.failure = result.failure;
-  cell.estimator = estimator;
   cell.tuning = tuning;
-  cell.thresholds = reuse.begin()->second->policy.thresholds;
+  cell.policy = reuse.begin()->second->policy;
   for (const OutcomeColumn& column : outcome_columns()) {
     cell.values.push_back(mean_interval(values_of(reuse, column.value), p));
   }

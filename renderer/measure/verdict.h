@@ -31,9 +31,8 @@ struct Change {
 /// at the confidence of the study.
 struct Cell {
   const FailureCase* failure = nullptr;
-  EstimatorId estimator{};
   Tuning tuning{};
-  Thresholds thresholds{};
+  SamplingPolicy policy;         ///< in mode reuse
   std::vector<Interval> values;  ///< in mode reuse, in the order of outcome_columns()
   BiasTest picture, region;      ///< in mode reuse
   BiasTest unbiased_picture, unbiased_region;

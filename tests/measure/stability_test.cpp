@@ -35,7 +35,7 @@ std::vector<CaseResult> run(const StabilityOptions& options) {
 const Cell& cell_of(const StabilitySummary& summary, std::string_view failure, EstimatorId id,
                     Tuning tuning) {
   return *std::ranges::find_if(summary.cells, [&](const Cell& cell) {
-    return cell.failure->id == failure && cell.estimator == id && cell.tuning == tuning;
+    return cell.failure->id == failure && cell.policy.estimator == id && cell.tuning == tuning;
   });
 }
 
