@@ -9,6 +9,7 @@
 #include "app/number_check.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
+#include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/shell_words.h"
 #include "renderer/measure/calibrate.h"
@@ -154,6 +155,8 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   } else {
     print_table(found, budget, options);
   }
+  report_rejected(rejected_of(experiment.lane(), run.settings.seed), options.run, run.scene,
+                  run.settings);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
+#include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "renderer/image/staged_files.h"
 
@@ -17,7 +18,7 @@ namespace {
 struct ClaimsOptions {
   RunOptions run;
   std::uint32_t frames = 15;
-  int seeds = 5;
+  std::uint32_t seeds = 5;
   std::string reference;
   std::uint32_t reference_spp = 512;
   bool json = false;
@@ -25,6 +26,7 @@ struct ClaimsOptions {
 };
 
 void run_claims(const ClaimsOptions& options, const Program& program) {
+  check_seeds(options.run, options.seeds);
   Run run = prepare_run(options.run, 1);
   run.lab.statistics = {};
   // Before the long part: whether it is the report's scene, and whether the file can be written.
@@ -56,6 +58,7 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
     files->commit();
   }
   fmt::print("{}", options.json ? claims_json(report) : claims_text(report));
+  report_rejected(data->rejected, options.run, run.scene, run.settings);
 }
 
 }  // namespace
@@ -70,9 +73,7 @@ void add_claims_command(CLI::App& app, const Program& program) {
   command->add_option("--frames", options->frames, "Rounds of sampling")
       ->check(CLI::Range(1u, 100'000u))
       ->capture_default_str();
-  command->add_option("--seeds", options->seeds, "Independent repetitions, from --seed on")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  add_seeds_option(*command, options->seeds);
   add_reference_option(*command, options->reference);
   command
       ->add_option("--reference-spp", options->reference_spp,

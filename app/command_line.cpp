@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <stdexcept>
 #include <string_view>
 
 #include "app/commands.h"
@@ -79,6 +82,11 @@ int run_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       run_lab_window(window, program);
+    }
+    // What fits the buffer would be lost without a word after the return.
+    if (std::fflush(stdout) != 0) {
+      throw std::runtime_error(
+          fmt::format("cannot write to the standard output: {}", std::strerror(errno)));
     }
     return 0;
   } catch (const CLI::ParseError& error) {

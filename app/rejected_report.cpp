@@ -2,40 +2,37 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cstdio>
-#include <numeric>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/measure/rejected_sample.h"
 
 namespace quartet {
-namespace {
 
-std::uint64_t total_rejected(const LaneSnapshot& lane) {
-  return std::accumulate(lane.rejected.begin(), lane.rejected.end(), std::uint64_t(0));
-}
-
-}  // namespace
-
-void report_rejected(const Snapshot& snapshot, const RunOptions& options) {
-  const auto most = std::ranges::max_element(snapshot.lanes, {}, total_rejected);
-  if (most == snapshot.lanes.end() || total_rejected(*most) == 0) {
+void report_rejected(const RejectedSamples& rejected, RunOptions options,
+                     std::shared_ptr<const TraceScene> scene, RenderSettings settings) {
+  if (rejected.count == 0) {
     return;
   }
-  const auto pixel =
-      std::size_t(std::ranges::find_if(most->rejected, [](std::uint32_t n) { return n > 0; }) -
-                  most->rejected.begin());
-  const int x = int(pixel) % snapshot.width;
-  const int y = int(pixel) / snapshot.width;
+  options.seed = settings.seed = rejected.seed;
+  const int x = int(rejected.pixel) % settings.width;
+  const int y = int(rejected.pixel) / settings.width;
   const auto index =
-      first_rejected(sample_source(snapshot.scene, snapshot.settings), x, y, most->taken[pixel]);
-  assert(index);  // it is one of those that the lane has taken
+      first_rejected(sample_source(std::move(scene), settings), x, y, rejected.taken);
+  assert(index);  // it is one of those that were taken
   fmt::print(stderr,
              "quartet: warning: {} samples were NaN, infinite or negative and left out; the first: "
              "quartet trace {} --pixel {},{} --index {}\n",
-             total_rejected(*most), scene_words(options), x, y, index.value_or(0));
+             rejected.count, scene_words(options), x, y, index.value_or(0));
+}
+
+void report_rejected(const Snapshot& snapshot, const RunOptions& options) {
+  RejectedSamples most;
+  for (const LaneSnapshot& lane : snapshot.lanes) {
+    keep_most(most, rejected_of(lane.rejected, lane.taken, snapshot.settings.seed));
+  }
+  report_rejected(most, options, snapshot.scene, snapshot.settings);
 }
 
 }  // namespace quartet

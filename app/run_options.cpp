@@ -138,6 +138,18 @@ void add_threads_option(CLI::App& command, RunOptions& options) {
       ->capture_default_str();
 }
 
+void add_seeds_option(CLI::App& command, std::uint32_t& seeds, std::uint32_t least) {
+  command.add_option("--seeds", seeds, "Independent repetitions, each with the next seed")
+      ->check(CLI::Range(least, 10'000u))
+      ->capture_default_str();
+}
+
+void check_seeds(const RunOptions& options, std::uint32_t seeds) {
+  if (options.seed > UINT64_MAX - seeds) {
+    throw UsageError("--seed: so near the highest number there are not enough seeds after it");
+  }
+}
+
 void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
   add_scene_options(command, options, size_name);
   add_threads_option(command, options);

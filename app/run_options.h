@@ -41,6 +41,11 @@ void add_scene_options(CLI::App& command, RunOptions& options,
 
 void add_threads_option(CLI::App& command, RunOptions& options);
 
+/// Adds --seeds, how many times a command repeats its runs, each time with the next seed.
+void add_seeds_option(CLI::App& command, std::uint32_t& seeds, std::uint32_t least = 1);
+/// Throws UsageError if there are not so many seeds from the first one on.
+void check_seeds(const RunOptions& options, std::uint32_t seeds);
+
 /// Adds all of them to a command; `size_name` is what the picture size is called where --size is
 /// something else.
 void add_run_options(CLI::App& command, RunOptions& options,

@@ -9,9 +9,12 @@
 #include "app/interrupt.h"
 #include "app/number_check.h"
 #include "app/progress.h"
+#include "app/rejected_report.h"
+#include "app/run_options.h"
 #include "app/stability_files.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/verdict.h"
+#include "renderer/scene/load_scene.h"
 
 namespace quartet {
 namespace {
@@ -25,14 +28,22 @@ struct StabilityCommand {
   double target = StabilityOptions().target;
   std::uint32_t truth_spp = StabilityOptions().truth.most_spp;
   double confidence = 0.99;
-  int threads = 0;
+  RunOptions run;  // its threads
   std::string out;
 };
+
+/// The study finds its rows again by their ids, so that each may be there once.
+template <class T>
+void add_once(std::vector<T>& list, T value) {
+  if (std::ranges::find(list, value) == list.end()) {
+    list.push_back(value);
+  }
+}
 
 StabilityOptions options_of(const StabilityCommand& command) {
   StabilityOptions options;
   for (const std::string& id : command.cases) {
-    options.cases.push_back(&find_failure_case(id));
+    add_once(options.cases, &find_failure_case(id));
   }
   for (const FailureCase& row : failure_cases()) {
     if (command.cases.empty()) {
@@ -45,7 +56,7 @@ StabilityOptions options_of(const StabilityCommand& command) {
       throw UsageError(fmt::format(
           "--estimators: '{}' is what the others are compared with; name those to be studied", id));
     }
-    options.estimators.push_back(row.key);
+    add_once(options.estimators, row.key);
   }
   for (const Estimator& row : estimators()) {
     if (command.estimators.empty() && row.channels > 0 && !row.needs_reference) {
@@ -66,6 +77,24 @@ StabilityOptions options_of(const StabilityCommand& command) {
   return options;
 }
 
+/// One line a case that met samples which no film takes.
+void report_rejected(const std::vector<CaseResult>& results) {
+  for (const CaseResult& result : results) {
+    RejectedSamples most;
+    for (const Trial& trial : result.trials) {
+      if (trial.variation == Variation::none) {
+        keep_most(most, trial.rejected);
+      }
+    }
+    if (most.count > 0) {
+      RunOptions options;
+      options.scene = result.failure->scene;
+      const auto scene = std::make_shared<const TraceScene>(open_scene(options.scene));
+      report_rejected(most, options, scene, default_settings(scene->scene()));
+    }
+  }
+}
+
 /// For each case the estimator that fails worst, and how.
 void print_summary(const StabilityOptions& options, const StabilitySummary& summary) {
   for (const FailureCase* failure : options.cases) {
@@ -75,7 +104,8 @@ void print_summary(const StabilityOptions& options, const StabilitySummary& summ
         worst = &cell;
       }
     }
-    fmt::print("{:<17} {:<16} {:<10} {:<19} {}\n", failure->id, estimator(worst->estimator).id,
+    fmt::print("{:<17} {:<16} {:<10} {:<19} {}\n", failure->id,
+               estimator(worst->policy.estimator).id,
                worst->tuning == Tuning::usual ? "default" : "budget", verdict(*worst).label,
                verdict(*worst).number(*worst));
   }
@@ -101,7 +131,8 @@ void run_stability_command(const StabilityCommand& command, const Program& progr
   {
     const Interrupt interrupt;
     Progress progress("stability");
-    tbb::task_arena arena(command.threads > 0 ? command.threads : tbb::task_arena::automatic);
+    tbb::task_arena arena(command.run.threads > 0 ? command.run.threads
+                                                  : tbb::task_arena::automatic);
     arena.execute([&] {
       results = run_stability(
           options, [&](double done, std::string_view what) { progress.update(done, what); },
@@ -115,6 +146,7 @@ void run_stability_command(const StabilityCommand& command, const Program& progr
   write_stability_files(files, options, results, summary, program.command_line);
   files.commit();
   print_summary(options, summary);
+  report_rejected(results);
 }
 
 }  // namespace
@@ -131,11 +163,13 @@ void add_stability_command(CLI::App& app, const Program& program) {
       ->add_option("--estimators", options->estimators,
                    "Separated by commas; all if not given, see quartet list")
       ->delimiter(',');
-  command->add_option("--policy", options->policy, "batch, converge or two-level: one that ends")
+  command
+      ->add_option(
+          "--policy", options->policy,
+          "batch, converge or two-level; under vote every pixel goes on getting samples, so "
+          "that none is ever done")
       ->capture_default_str();
-  command->add_option("--seeds", options->seeds, "Independent runs of each")
-      ->check(CLI::Range(2u, 100'000u))
-      ->capture_default_str();
+  add_seeds_option(*command, options->seeds, 2);
   command
       ->add_option("--spp", options->spp,
                    "The common budget, mean samples per pixel; a pixel may have 8 times as many")
@@ -155,13 +189,14 @@ void add_stability_command(CLI::App& app, const Program& program) {
       ->add_option("--confidence", options->confidence, "Of all intervals together, such as 0.99")
       ->check(number_between(0.5, 0.999999))
       ->capture_default_str();
-  command->add_option("--threads", options->threads, "0: one a processor")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
+  add_threads_option(*command, options->run);
   command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
   command->footer(
       "Writes matrix.png, matrix.pdf, stability.csv (one row a number, with its interval) and "
-      "trials.csv (one row a number and seed).\n"
+      "trials.csv (one row a number and seed).\nRows cost_... and error_... of stability.csv: how "
+      "mean samples and relmse change, as ratios, when thresholds are\nmultiplied or divided by "
+      "1.1, when all radiance doubles, and when the resolution does; then the picture is shrunk\n"
+      "back before it is compared, and the change is relative to that of uniform sampling.\n"
       "Examples:\n"
       "  quartet stability --out stability\n"
       "  quartet stability --cases rare-light,two-valued --estimators contrast,chi2 --seeds 32 "

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/run_record.h"
 #include "renderer/version.h"
 #include "ui/matrix_figure.h"
 
@@ -12,14 +13,6 @@ namespace {
 
 std::string_view id_of(Tuning tuning) {
   return tuning == Tuning::usual ? "default" : "budget";
-}
-
-std::string text_of(EstimatorId id, const Thresholds& thresholds) {
-  std::string text;
-  for (int c = 0; c < estimator(id).channels; ++c) {
-    text += fmt::format("{}{:g}", c > 0 ? " " : "", thresholds[std::size_t(c)]);
-  }
-  return text;
 }
 
 std::string trials_csv(const StabilityOptions& options, std::span<const CaseResult> results) {
@@ -31,16 +24,16 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
       const Outcome& outcome = trial.outcome;
       const double pixels = double(result.width) * double(result.height) *
                             (trial.variation == Variation::resolution ? 4.0 : 1.0);
-      const std::string row =
-          fmt::format("{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.6f}", result.failure->id,
-                      result.failure->scene, estimator(trial.policy.estimator).id,
-                      allocation(options.allocation).id, sample_use(trial.policy.use).id,
-                      id_of(trial.tuning), variations()[std::size_t(trial.variation)].id,
-                      text_of(trial.policy.estimator, trial.policy.thresholds), trial.seed,
-                      trial.frames, outcome.seconds, outcome.mean_spp * pixels, outcome.mean_spp);
+      const std::string row = fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.6f}", result.failure->id,
+          result.failure->scene, estimator(trial.policy.estimator).id,
+          allocation(options.allocation).id, sample_use(trial.policy.use).id, id_of(trial.tuning),
+          variations()[std::size_t(trial.variation)].id, thresholds_text(trial.policy), trial.seed,
+          trial.frames, outcome.seconds, outcome.mean_spp * pixels, outcome.mean_spp);
       for (const OutcomeColumn& column : outcome_columns()) {
-        if (column.id != "seconds" && column.id != "mean_spp") {
-          csv += fmt::format("{},{},{:.9g}\n", row, column.id, outcome.*column.value);
+        const double value = outcome.*column.value;
+        if (column.id != "seconds" && column.id != "mean_spp" && !std::isnan(value)) {
+          csv += fmt::format("{},{},{:.9g}\n", row, column.id, value);
         }
       }
     }
@@ -53,8 +46,8 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
               const Cell& cell) {
   const std::string row = fmt::format(
       "{},{},{},{},{},{},{:g},{:g}", cell.failure->id, cell.failure->scene,
-      estimator(cell.estimator).id, allocation(options.allocation).id, id_of(cell.tuning),
-      text_of(cell.estimator, cell.thresholds), double(result.truth.spp), result.truth.noise);
+      estimator(cell.policy.estimator).id, allocation(options.allocation).id, id_of(cell.tuning),
+      thresholds_text(cell.policy), double(result.truth.spp), result.truth.noise);
   const auto number = [&](std::string_view metric, double value) {
     csv += fmt::format("{},{},{:.9g},,,\n", row, metric, value);
   };
@@ -83,9 +76,7 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
   for (const VariationRow& variation : variations()) {
     if (const auto& change = cell.changes[std::size_t(variation.key)]) {
       number(fmt::format("cost_{}", variation.id), change->cost);
-      if (std::isfinite(change->error)) {
-        number(fmt::format("error_{}", variation.id), change->error);
-      }
+      number(fmt::format("error_{}", variation.id), change->error);
     }
   }
 }

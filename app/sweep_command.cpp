@@ -12,6 +12,7 @@
 #include "app/number_check.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
+#include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/stop_options.h"
 #include "app/sweep_files.h"
@@ -83,7 +84,7 @@ SweepPlan sweep_plan(const SweepOptions& options) {
   return plan;
 }
 
-std::string seed_text(int seeds) {
+std::string seed_text(std::uint32_t seeds) {
   return seeds == 1 ? "1 seed" : fmt::format("{} seeds", seeds);
 }
 
@@ -163,9 +164,7 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
 
 void run_sweep_command(const SweepOptions& options, const Program& program) {
   const SweepPlan plan = sweep_plan(options);
-  if (options.run.seed > UINT64_MAX - std::uint64_t(plan.seeds)) {
-    throw UsageError("--seed: so near the highest number there are not enough seeds after it");
-  }
+  check_seeds(options.run, plan.seeds);
   Run run = prepare_run(options.run, 1);
   // Variances would cost every run memory and time, and no estimator that does not ask for them.
   run.lab.statistics = {};
@@ -198,6 +197,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   print_savings(*result);
   fmt::print("sweep and calibration as .csv, .png, .pdf and .svg are in {}; median of {}\n",
              options.out, seed_text(plan.seeds));
+  report_rejected(result->rejected, options.run, run.scene, run.settings);
   if (options.verify_time) {
     verify_time(world, *result, interrupt.token());
   }
@@ -222,9 +222,7 @@ void add_sweep_command(CLI::App& app, const Program& program) {
   command->add_option("--range", options->range, "Factors on the default thresholds")
       ->type_name("LOW:HIGH")
       ->capture_default_str();
-  command->add_option("--seeds", options->plan.seeds, "Independent repetitions, from --seed on")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  add_seeds_option(*command, options->plan.seeds);
   command->add_option("--metric", options->metric, "Of the chart: see quartet list")
       ->capture_default_str();
   add_stop_options(*command, options->stop);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "renderer/measure/interval.h"
 #include "renderer/parallel.h"
 #include "renderer/trace/running_mean.h"
 
@@ -42,10 +42,6 @@ double mean_luminance(const RadianceImage& image) {
     sum += double(luminance(pixel));
   }
   return sum / double(image.size());
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 /// Sums over the seeds so far.
@@ -154,6 +150,7 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
       runs[i].mean_spp.push_back(double(last.samples) / double(shown.size()));
       runs[i].seconds.push_back(last.seconds);
       runs[i].energy.push_back(mean_luminance(shown) / mean_luminance(other) - 1.0);
+      keep_most(runs[i].rejected, rejected_of(lane, own.seed));
       sums[i].add(shown, other);
     }
     progress(double(k + 1) / double(seeds));

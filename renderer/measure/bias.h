@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/measure/rejected.h"
 
 namespace quartet {
 
@@ -21,6 +22,7 @@ struct BiasRuns {
   RadianceImage uniform;         ///< the same of uniform sampling
   ScalarImage difference;        ///< luminance of mean less that of uniform
   ScalarImage standard_error;    ///< of `difference`, from its spread over the seeds
+  RejectedSamples rejected;      ///< of the seed that met most
   double noise = 0.0;  ///< variance of a picture over the seeds, mean over pixels and channels
 };
 

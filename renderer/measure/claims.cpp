@@ -216,7 +216,7 @@ class ClaimLab {
 
 std::optional<ClaimData> measure_claims(
     const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t frames,
-    int seeds, std::stop_token stop,
+    std::uint32_t seeds, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress) {
   ClaimData data;
   data.pixels.assign(regions().size(), 0);
@@ -224,8 +224,8 @@ std::optional<ClaimData> measure_claims(
     ++data.pixels[index_of(id)];
   }
   constexpr std::size_t steps = report_criterion_count + 1;
-  for (int k = 0; k < seeds; ++k) {
-    const std::uint64_t seed = world.first_seed + std::uint64_t(k);
+  for (std::uint32_t k = 0; k < seeds; ++k) {
+    const std::uint64_t seed = world.first_seed + k;
     ClaimLab lab(world, seed, region_of_pixel, stop);
     ClaimSeed measured;
     std::vector<std::vector<std::uint32_t>> maps;
@@ -235,6 +235,7 @@ std::optional<ClaimData> measure_claims(
       if (!lab.run_criterion(report_criteria[c], frames, data.pixels, measured.runs[c])) {
         return std::nullopt;
       }
+      keep_most(data.rejected, rejected_of(lab.lane(), seed));
       maps.emplace_back(lab.lane().taken().begin(), lab.lane().taken().end());
     }
     if (!lab.run_uniform(measured)) {

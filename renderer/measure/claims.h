@@ -50,13 +50,15 @@ struct ClaimSeed {
 struct ClaimData {
   std::vector<std::size_t> pixels;  ///< of each region
   std::vector<ClaimSeed> seeds;
+  RejectedSamples rejected;  ///< of the run that met most
 };
 
 /// Renders the report's scene as the report did, at several seeds. Nothing if `stop` ended it.
 /// Throws std::runtime_error if the scene is not the report's.
 std::optional<ClaimData> measure_claims(
     const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t frames,
-    int seeds, std::stop_token stop, const std::function<void(double, std::string_view)>& progress);
+    std::uint32_t seeds, std::stop_token stop,
+    const std::function<void(double, std::string_view)>& progress);
 
 /// A value of each seed, with the interval of its mean.
 Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value);

@@ -55,14 +55,6 @@ double normal_quantile(double p) {
   return high;
 }
 
-double mean_of(std::span<const double> values) {
-  double sum = 0.0;
-  for (const double value : values) {
-    sum += value;
-  }
-  return sum / double(values.size());
-}
-
 /// Of the mean.
 double standard_error(std::span<const double> values, double mean) {
   double squares = 0.0;
@@ -73,6 +65,14 @@ double standard_error(std::span<const double> values, double mean) {
 }
 
 }  // namespace
+
+double mean_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double value : values) {
+    sum += value;
+  }
+  return sum / double(values.size());
+}
 
 double student_p(double t, int degrees) {
   return incomplete_beta(0.5 * degrees, 0.5, degrees / (degrees + t * t));

@@ -21,6 +21,9 @@ double student_quantile(double p, int degrees);
 /// Probability that Student's t lies at least this far from 0.
 double student_p(double t, int degrees);
 
+/// Of at least one value.
+double mean_of(std::span<const double> values);
+
 /// Of the mean of independent values, two-sided, at confidence 1 − p, by Student's t. Of a single
 /// value nothing is known: its interval has no ends.
 Interval mean_interval(std::span<const double> values, double p);

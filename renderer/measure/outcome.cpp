@@ -36,13 +36,14 @@ void for_each_pixel(const PixelRegion& region, int width, const Visit& visit) {
   }
 }
 
-/// Luminance of a region of the film over that of the truth, less 1; their difference where the
+/// Luminance of a region of the picture over that of the truth, less 1; their difference where the
 /// truth is black.
-double energy_of(const Film& film, const RadianceImage& truth, const PixelRegion& region) {
+double energy_of(const RadianceImage& picture, const RadianceImage& truth,
+                 const PixelRegion& region) {
   double shown = 0.0;
   double right = 0.0;
-  for_each_pixel(region, film.width(), [&](std::size_t i) {
-    shown += double(luminance({film.mean(0)[i], film.mean(1)[i], film.mean(2)[i]}));
+  for_each_pixel(region, picture.width(), [&](std::size_t i) {
+    shown += double(luminance(picture.pixels()[i]));
     right += double(luminance(truth.pixels()[i]));
   });
   return right > 0.0 ? shown / right - 1.0 : (shown - right) / region.pixels();
@@ -59,14 +60,14 @@ double mean_of_worst(std::vector<float> errors) {
          double(count);
 }
 
-double firefly_share(const Film& film, const RadianceImage& truth) {
+double firefly_share(const RadianceImage& picture, const RadianceImage& truth) {
   double count = 0.0;
-  for (std::size_t i = 0; i < film.size(); ++i) {
+  for (std::size_t i = 0; i < picture.size(); ++i) {
     const float right = luminance(truth.pixels()[i]);
-    const float shown = luminance({film.mean(0)[i], film.mean(1)[i], film.mean(2)[i]});
+    const float shown = luminance(picture.pixels()[i]);
     count += shown - right > 5.0f * (right + 0.1f) ? 1.0 : 0.0;
   }
-  return count / double(film.size());
+  return count / double(picture.size());
 }
 
 /// Half the sum of the differences of two distributions of samples over pixels.
@@ -111,42 +112,53 @@ std::vector<PixelState> pixel_states(const Lane& lane) {
   return states;
 }
 
+Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
+                   const PixelRegion& region) {
+  std::vector<float> errors = squared_errors(picture, truth);
+  Outcome outcome;
+  outcome.relmse = std::accumulate(errors.begin(), errors.end(), 0.0) / double(errors.size());
+  outcome.worst = mean_of_worst(std::move(errors));
+  outcome.fireflies = firefly_share(picture, truth);
+  outcome.energy = energy_of(picture, truth, {0, 0, picture.width(), picture.height()});
+  outcome.region_energy = energy_of(picture, truth, region);
+  return outcome;
+}
+
+void set_cost(Outcome& outcome, const Lane& lane) {
+  const FrameRecord& last = lane.history().back();
+  outcome.mean_spp = double(last.samples) / double(lane.film().size());
+  outcome.seconds = last.seconds;
+}
+
 Observation::Observation(const Truth& truth, const PixelRegion& region, double target)
-    : truth_(truth), region_(region), target_(target), errors_(truth.image->size()) {
+    : truth_(truth), region_(region), target_(target) {
 }
 
 void Observation::before_frame(const Lane& lane) {
   if (lane.frame() == 0 || lane.plan().total == 0) {
     return;
   }
-  squared_errors(lane.film(), *truth_.image, errors_);
-  for (std::size_t i = 0; i < errors_.size(); ++i) {
+  const std::vector<float> errors = squared_errors(lane.film().image(), *truth_.image);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
     const double wanted = lane.plan().wanted[i];
     spent_ += wanted;
-    wasted_ += double(errors_[i]) <= target_ ? wanted : 0.0;
+    wasted_ += double(errors[i]) <= target_ ? wanted : 0.0;
   }
 }
 
 Outcome Observation::outcome(const Lane& lane, std::span<const std::uint32_t> oracle,
                              const Audit& audit) {
   const Film& film = lane.film();
-  const RadianceImage& truth = *truth_.image;
-  const FrameRecord& last = lane.history().back();
-  const double pixels = double(film.size());
-  Outcome outcome;
-  outcome.mean_spp = double(last.samples) / pixels;
-  outcome.seconds = last.seconds;
-  squared_errors(film, truth, errors_);
-  outcome.relmse = std::accumulate(errors_.begin(), errors_.end(), 0.0) / pixels;
-  outcome.worst = mean_of_worst(errors_);
-  outcome.fireflies = firefly_share(film, truth);
-  outcome.energy = energy_of(film, truth, {0, 0, film.width(), film.height()});
-  outcome.region_energy = energy_of(film, truth, region_);
-  outcome.rejected = share(double(film.total_rejected()), double(last.samples));
+  const RadianceImage picture = film.image();
+  const double all_samples = double(lane.history().back().samples);
+  Outcome outcome = outcome_of(picture, *truth_.image, region_);
+  set_cost(outcome, lane);
+  outcome.rejected = share(double(film.total_rejected()), all_samples);
   outcome.wasted = share(wasted_, spent_);
   outcome.off_oracle = distance(lane.taken(), oracle);
 
-  std::vector<PixelState> states = pixel_states(lane);
+  const std::vector<float> errors = squared_errors(picture, *truth_.image);
+  const std::vector<PixelState> states = pixel_states(lane);
   double done = 0.0;
   double missed = 0.0;
   double never = 0.0;
@@ -154,7 +166,7 @@ Outcome Observation::outcome(const Lane& lane, std::span<const std::uint32_t> or
   double samples = 0.0;
   std::vector<PixelState> in_region(states.size(), PixelState::refining);
   for_each_pixel(region_, film.width(), [&](std::size_t i) {
-    const bool wrong = double(errors_[i]) > target_;
+    const bool wrong = double(errors[i]) > target_;
     samples += lane.taken()[i];
     in_region[i] = states[i];
     if (states[i] == PixelState::done) {
@@ -168,7 +180,7 @@ Outcome Observation::outcome(const Lane& lane, std::span<const std::uint32_t> or
   outcome.done = done / region_.pixels();
   outcome.missed = share(missed, done);
   outcome.never_done = never / region_.pixels();
-  outcome.never_done_cost = share(never_samples, double(last.samples));
+  outcome.never_done_cost = share(never_samples, all_samples);
   outcome.region_spp = samples / region_.pixels();
   outcome.audit = audit.check(in_region, {film.mean(0), film.mean(1), film.mean(2)}, target_);
   return outcome;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,28 +17,39 @@ namespace quartet {
 /// What became of each pixel of a lane, by its errors, thresholds and maximum.
 std::vector<PixelState> pixel_states(const Lane& lane);
 
-/// What is measured of one lane that has run to its end, against the truth. Shares are of pixels
-/// unless said otherwise; `region` is where the failure lives. A pixel is wrong if its squared
-/// relative error is above the common target.
+/// What is measured of one lane that has run to its end, against the truth; NaN: it was not. Shares
+/// are of pixels unless said otherwise; `region` is where the failure lives. A pixel is wrong if
+/// its squared relative error is above the common target.
 struct Outcome {
-  double mean_spp = 0.0;         ///< the pilot's samples included
-  double seconds = 0.0;          ///< as if alone
-  double relmse = 0.0;           ///< mean squared relative error
-  double worst = 0.0;            ///< the same of the worst 0.1 % of pixels
-  double fireflies = 0.0;        ///< share of pixels more than 5 × (truth + 0.1) too bright
-  double energy = 0.0;           ///< mean luminance of the picture over the true one, less 1
-  double region_energy = 0.0;    ///< the same of the region
-  double done = 0.0;             ///< share of the region that the criterion is done with
-  double missed = 0.0;           ///< share of those done that are wrong nevertheless
-  double never_done = 0.0;       ///< share of the region that is at the maximum though not wrong
-  double never_done_cost = 0.0;  ///< share of all samples that those pixels took
-  double wasted =
-      0.0;  ///< share of the samples after the first frame that went to pixels not wrong
-  double off_oracle = 0.0;  ///< share of the samples that an oracle would have put elsewhere
-  double region_spp = 0.0;  ///< mean samples of the region's pixels
-  double rejected = 0.0;    ///< share of the samples
-  Audit::Finding audit;     ///< over the region
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double mean_spp = unknown;  ///< the pilot's samples included
+  double seconds = unknown;   ///< as if alone
+
+  // Of the picture:
+  double relmse = unknown;         ///< mean squared relative error
+  double worst = unknown;          ///< the same of the worst 0.1 % of pixels
+  double fireflies = unknown;      ///< share of pixels more than 5 × (truth + 0.1) too bright
+  double energy = unknown;         ///< mean luminance of the picture over the true one, less 1
+  double region_energy = unknown;  ///< the same of the region
+
+  // Of the decisions:
+  double done = unknown;        ///< share of the region that the criterion is done with
+  double missed = unknown;      ///< share of those done that are wrong nevertheless
+  double never_done = unknown;  ///< share of the region that is at the maximum though not wrong
+  double never_done_cost = unknown;  ///< share of all samples that those pixels took
+  double wasted = unknown;      ///< share of the samples after the first frame, of pixels not wrong
+  double off_oracle = unknown;  ///< share of the samples that an oracle would have put elsewhere
+  double region_spp = unknown;  ///< mean samples of the region's pixels
+  double rejected = unknown;    ///< share of the samples
+  Audit::Finding audit;         ///< over the region
 };
+
+/// What can be said of a picture alone.
+Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
+                   const PixelRegion& region);
+/// Adds what a lane took.
+void set_cost(Outcome& outcome, const Lane& lane);
 
 /// Follows a lane from frame to frame.
 class Observation {
@@ -53,7 +65,6 @@ class Observation {
   const Truth& truth_;
   PixelRegion region_;
   double target_;
-  std::vector<float> errors_;
   double spent_ = 0.0;   // samples after the first frame
   double wasted_ = 0.0;  // of those
 };

@@ -1,32 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <stop_token>
 #include <string_view>
 #include <vector>
 
-#include "renderer/adaptive/policy.h"
-#include "renderer/measure/outcome.h"
+#include "renderer/measure/trial.h"
 
 namespace quartet {
-
-/// How a trial's thresholds were chosen.
-enum class Tuning {
-  usual,   ///< the estimator's defaults
-  budget,  ///< the multiple of them at which it takes the common budget
-};
-
-/// What is different from the plain experiment, to see how much that changes.
-enum class Variation { none, threshold_up, threshold_down, exposure, resolution };
-
-/// One row of the table of variations.
-struct VariationRow {
-  Variation key;
-  std::string_view id;
-  std::string_view description;
-};
-std::span<const VariationRow> variations();
 
 struct StabilityOptions {
   std::vector<const FailureCase*> cases;
@@ -42,17 +23,6 @@ struct StabilityOptions {
 
 /// The maximum that a pixel may have, in multiples of the budget.
 inline constexpr double maximum_over_budget = 8.0;
-
-/// One lane, run to its end.
-struct Trial {
-  const FailureCase* failure = nullptr;
-  Tuning tuning = Tuning::usual;
-  Variation variation = Variation::none;
-  std::uint64_t seed = 0;
-  SamplingPolicy policy;
-  std::uint32_t frames = 0;
-  Outcome outcome;
-};
 
 /// What came of all trials of a case.
 struct CaseResult {

@@ -96,6 +96,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
     return false;
   }
   result.uniform.push_back(std::move(*uniform));
+  keep_most(result.rejected, rejected_of(experiment.lane(), seed));
   const std::vector<float> oracle = oracle_weights(experiment.first_samples(oracle_spp));
   for (const SamplingPolicy& policy : plan.policies) {
     for (const double factor : sweep_factors(plan)) {
@@ -108,6 +109,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
         return false;
       }
       run.end = measured->back();
+      keep_most(result.rejected, rejected_of(experiment.lane(), seed));
       run.quality = quality_of(experiment.lane(), true_squared_error(experiment), oracle);
       result.runs.push_back(std::move(run));
     }
@@ -190,9 +192,9 @@ std::optional<SweepResult> run_sweep(
   result.first_seed = world.first_seed;
   const std::size_t runs = 1 + plan.policies.size() * sweep_factors(plan).size();
   SweepProgress told(std::size_t(plan.seeds), runs, progress);
-  for (int k = 0; k < plan.seeds; ++k) {
-    told.begin_seed(std::size_t(k));
-    const std::uint64_t seed = world.first_seed + std::uint64_t(k);
+  for (std::uint32_t k = 0; k < plan.seeds; ++k) {
+    told.begin_seed(k);
+    const std::uint64_t seed = world.first_seed + k;
     // Each seed has a store of its own, gone with it: memory does not grow with seeds.
     Experiment experiment(world.source(seed), world.width, world.height, lab_options(world, seed),
                           world.reference);

@@ -12,6 +12,7 @@
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/experiment.h"
 #include "renderer/measure/quality.h"
+#include "renderer/measure/rejected.h"
 
 namespace quartet {
 
@@ -40,7 +41,7 @@ struct SweepPlan {
   int thresholds = 8;
   double low = 0.1;  ///< factor on the default thresholds
   double high = 10.0;
-  int seeds = 3;
+  std::uint32_t seeds = 3;
   /// The end of each run. A run of the uniform baseline goes on until it has taken as many samples,
   /// or seconds, as the dearest run may, so that it can be compared with all: frames do not end it
   /// where another condition does.
@@ -65,6 +66,7 @@ struct SweepResult {
   std::uint64_t samples_traced = 0;
   std::uint64_t samples_used = 0;  ///< by all runs together
   bool partial = false;            ///< memory was short: some samples were traced again
+  RejectedSamples rejected;        ///< of the run that met most
 };
 
 /// The factors of a sweep, rising, with 1, the default, among them.

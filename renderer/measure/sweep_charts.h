@@ -15,7 +15,7 @@ struct SweepSummary {
   std::vector<SweepPoint> uniform;  ///< at powers of two of its frames
   std::vector<SweepPoint> front;    ///< of points and uniform
   MetricId metric = MetricId::relmse;
-  int seeds = 1;
+  std::uint32_t seeds = 1;
   double noise_floor = 0.0;  ///< of the reference; NaN: not known
 };
 SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::size_t metric,

@@ -1,6 +1,7 @@
 #include "renderer/measure/truth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "renderer/measure/reference_render.h"
@@ -25,41 +26,37 @@ std::shared_ptr<const Truth> find_truth(std::shared_ptr<const TraceScene> scene,
   RenderSettings own = settings;
   own.seed = reference_seed;
   ReferenceRender render(std::move(scene), own);
-  constexpr std::uint32_t step = 128;
-  for (std::uint32_t spp = 0; spp < effort.most_spp;) {
-    const std::uint32_t some = std::min(step, effort.most_spp - spp);
-    render.add(some);
-    spp += some;
-    if (!go_on(double(spp) / double(effort.most_spp))) {
+  while (true) {
+    constexpr std::uint32_t step = 128;
+    const std::uint64_t spp = render.sums().spp;
+    render.add(std::uint32_t(std::min<std::uint64_t>(step, effort.most_spp - spp)));
+    truth->spp = render.sums().spp;
+    if (!go_on(double(truth->spp) / double(effort.most_spp))) {
       return nullptr;
     }
     // The noise of few samples is not known well enough to stop by.
-    constexpr std::uint32_t least_spp = 512;
-    const bool is_round = (spp & (spp - 1)) == 0;
-    if (spp == effort.most_spp || (is_round && spp >= least_spp)) {
-      const auto reference = render.reference();
-      truth->image = std::make_shared<const RadianceImage>(reference->image);
+    constexpr std::uint64_t least_spp = 512;
+    const bool at_most = truth->spp == effort.most_spp;
+    if (at_most || (std::has_single_bit(truth->spp) && truth->spp >= least_spp)) {
+      const std::shared_ptr<const Reference> reference = render.reference();
+      truth->image = {reference, &reference->image};
       truth->noise = reference->noise_floor(MetricId::relmse);
-      truth->spp = spp;
-      if (truth->noise <= effort.noise) {
-        break;
+      if (at_most || truth->noise <= effort.noise) {
+        return truth;
       }
     }
   }
-  return truth;
 }
 
-void squared_errors(const Film& film, const RadianceImage& truth, std::span<float> error) {
-  assert(truth.size() == film.size() && error.size() == film.size());
-  const float* red = film.mean(0).data();
-  const float* green = film.mean(1).data();
-  const float* blue = film.mean(2).data();
-  const glm::vec3* right = truth.pixels().data();
-  const auto term = [](float x, float r) { return (x - r) * (x - r) / (r * r + relative_floor); };
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    error[i] = (term(red[i], right[i].x) + term(green[i], right[i].y) + term(blue[i], right[i].z)) *
-               (1.0f / 3.0f);
+std::vector<float> squared_errors(const RadianceImage& picture, const RadianceImage& truth) {
+  assert(truth.size() == picture.size());
+  std::vector<float> errors(picture.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const glm::vec3 off = picture.pixels()[i] - truth.pixels()[i];
+    const glm::vec3 terms = off * off / (truth.pixels()[i] * truth.pixels()[i] + relative_floor);
+    errors[i] = (terms.x + terms.y + terms.z) * (1.0f / 3.0f);
   }
+  return errors;
 }
 
 }  // namespace quartet

@@ -2,9 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
-#include "renderer/adaptive/film.h"
-#include "renderer/measure/failure_case.h"
+#include "renderer/image/image.h"
 #include "renderer/trace/integrator.h"
 
 namespace quartet {
@@ -31,8 +31,8 @@ std::shared_ptr<const Truth> find_truth(std::shared_ptr<const TraceScene> scene,
                                         const RenderSettings& settings, const TruthEffort& effort,
                                         const std::function<bool(double)>& go_on);
 
-/// Squared relative error of each pixel of a film, the mean over the channels of
-/// (x − r)² / (r² + 0.01): a map of relmse.
-void squared_errors(const Film& film, const RadianceImage& truth, std::span<float> error);
+/// Squared relative error of each pixel, the mean over the channels of (x − r)² / (r² + 0.01): a
+/// map of relmse.
+std::vector<float> squared_errors(const RadianceImage& picture, const RadianceImage& truth);
 
 }  // namespace quartet

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "renderer/adaptive/policy.h"
 #include "renderer/image/exr.h"
+#include "tests/app/csv.h"
 #include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
 
@@ -40,34 +41,12 @@ class ModeOption : public testing::Test {
   TempFolder folder_;
 };
 
-/// A CSV without its column of seconds, and without the metric made of it.
-std::vector<std::string> without_seconds(const std::string& csv) {
-  constexpr int seconds_column = 7;
-  std::vector<std::string> kept;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string rest;
-    int column = 0;
-    for (std::string word; std::getline(words, word, ','); ++column) {
-      if (column != seconds_column) {
-        rest += word;
-        rest += ',';
-      }
-    }
-    if (rest.find("efficiency") == std::string::npos) {
-      kept.push_back(rest);
-    }
-  }
-  return kept;
-}
-
 TEST_F(ModeOption, EachEstimatorInEachModeIsTheSameWithAnyNumberOfThreads) {
   make_reference();
   figure_of_all("1", "1");
   const auto csv = without_seconds(bytes_of(path("1/panels.csv")));
   ASSERT_GT(csv.size(), 2 * estimators().size());
-  EXPECT_EQ(csv.front().find("seconds"), std::string::npos);
+  EXPECT_EQ(std::ranges::find(csv.front(), "seconds"), csv.front().end());
   const auto json = nlohmann::json::parse(bytes_of(path("1/panels.json")));
   ASSERT_EQ(json.at("lanes").size(), 2 * estimators().size());
   EXPECT_GT(json.at("pilot_store").at("samples_traced").get<int>(), 0);

@@ -6,11 +6,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "renderer/measure/regions.h"
+#include "tests/app/csv.h"
 #include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
 
@@ -34,20 +34,6 @@ class SweepCommands : public testing::Test {
 
   TempFolder folder_;
 };
-
-std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> fields;
-    std::istringstream words(line);
-    for (std::string word; std::getline(words, word, ',');) {
-      fields.push_back(word);
-    }
-    rows.push_back(fields);
-  }
-  return rows;
-}
 
 TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
   const auto result = run(sweep({"--estimators", "kl,contrast", "--out", out()}));
@@ -90,6 +76,37 @@ TEST_F(SweepCommands, VerifyTimeComparesWithRunsAlone) {
   EXPECT_NE(result.out.find("% on average"), std::string::npos);
 }
 
+TEST_F(SweepCommands, SweepIsTheSameWithAnyNumberOfThreads) {
+  std::vector<std::vector<std::vector<std::string>>> sweeps;
+  std::vector<std::string> calibrations;
+  for (const std::string threads : {"1", "2", "8"}) {
+    const auto result = run(sweep({"--estimators", "kl,variance", "--mode", "unbiased", "--threads",
+                                   threads, "--out", out() + threads}));
+    ASSERT_EQ(result.code, 0) << result.error;
+    sweeps.push_back(without_seconds(bytes_of(out() + threads + "/sweep.csv")));
+    calibrations.push_back(bytes_of(out() + threads + "/calibration.csv"));
+    EXPECT_EQ(sweeps.back(), sweeps.front());
+    EXPECT_EQ(calibrations.back(), calibrations.front());
+  }
+  EXPECT_GT(sweeps.front().size(), 50u);
+}
+
+TEST_F(SweepCommands, RejectedSamplesAreToldInOneLine) {
+  const auto expect_told = [](const Result& result) {
+    ASSERT_EQ(result.code, 0) << result.error;
+    const std::size_t told = result.error.find("samples were NaN, infinite or negative");
+    ASSERT_NE(told, std::string::npos) << result.error;
+    EXPECT_EQ(result.error.find("samples were", told + 8), std::string::npos) << result.error;
+    EXPECT_NE(result.error.find("quartet trace synthetic:non-finite --size 8x8"), std::string::npos)
+        << result.error;
+  };
+  expect_told(
+      run({"sweep", "synthetic:non-finite", "--size", "8x8", "--reference-spp", "4", "--frames",
+           "4", "--seeds", "2", "--thresholds", "1", "--estimators", "kl", "--out", out()}));
+  expect_told(run(
+      {"calibrate", "synthetic:non-finite", "--size", "8x8", "--spp", "20", "--estimators", "kl"}));
+}
+
 TEST_F(SweepCommands, SweepRefusesBadInput) {
   expect_usage_error(sweep({"--out", out(), "--range", "2:1"}), "--range: '2:1' is no range");
   expect_usage_error(sweep({"--out", out(), "--range", "0:1"}), "LOW:HIGH");
@@ -103,6 +120,13 @@ TEST_F(SweepCommands, SweepRefusesBadInput) {
   const auto missing = run(sweep({"--out", out(), "--reference", "/nowhere/ref.exr"}));
   EXPECT_EQ(missing.code, 1);
   EXPECT_NE(missing.error.find("/nowhere/ref.exr"), std::string::npos);
+  ASSERT_EQ(
+      run({"reference", "cornell-box", "--size", "8x8", "--spp", "4", "-o", out() + ".exr"}).code,
+      0);
+  const auto size = run(sweep({"--out", out(), "--reference", out() + ".exr"}));
+  EXPECT_EQ(size.code, 1);
+  EXPECT_NE(size.error.find("it has 8x8 pixels, the run has 16x16"), std::string::npos)
+      << size.error;
   EXPECT_FALSE(std::filesystem::exists(out())) << "nothing half-written";
   const auto unwritable = run(sweep({"--out", "/proc/nowhere"}));
   EXPECT_EQ(unwritable.code, 1);

@@ -91,20 +91,30 @@ TEST(FailureScenes, DoWhatTheyAreFor) {
   EXPECT_NEAR(mean, 0.5, 0.01);
 }
 
-TEST(FailureScenes, WiresAreAThirdOfAPixelWide) {
-  const auto scene = std::make_shared<const TraceScene>(open_scene("failures/wires"));
+TEST(FailureScenes, WiresAreAThirdOfAPixelWideAndEightSamplesMissSome) {
+  const FailureCase& wires = find_failure_case("wires");
+  const auto scene = std::make_shared<const TraceScene>(open_scene(wires.scene));
   const RenderSettings settings = default_settings(scene->scene());
   const SampleSource source = sample_source(scene, settings);
+  const PixelRegion region = pixels_of(wires.region, settings.width, settings.height);
   std::vector<glm::vec3> samples(64);
   double dark = 0.0;
-  for (int y = 0; y < settings.height; ++y) {
-    for (int x = 0; x < settings.width; ++x) {
+  double missed = 0.0;
+  for (int y = region.top; y < region.bottom; ++y) {
+    for (int x = region.left; x < region.right; ++x) {
       source(x, y, 0, samples);
-      dark += 1.0 - share(samples, 0.5f);
+      const double covered = 1.0 - share(samples, 0.5f);
+      dark += covered;
+      samples.resize(8);
+      missed += share(samples, 0.5f) == 1.0 ? 1.0 : 0.0;
+      samples.resize(64);
+      EXPECT_GT(covered, 0.2) << "no pixel without a wire";
     }
   }
-  // Four of them, about as long as the picture is wide.
-  EXPECT_NEAR(dark / (4.0 * settings.width), 1.0 / 3.0, 0.02);
+  // They are a pixel apart.
+  EXPECT_NEAR(dark / region.pixels(), 1.0 / 3.0, 0.02);
+  EXPECT_GT(missed, 0.0);
+  EXPECT_LT(missed, 0.05 * region.pixels());
 }
 
 }  // namespace

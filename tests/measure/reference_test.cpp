@@ -203,6 +203,42 @@ TEST(Reference, StaysRightAtTenMillionSamplesAPixel) {
   EXPECT_EQ(render.reference()->image.at(0, 0), glm::vec3(0.1f, 1e-3f, 700.0f));
 }
 
+TEST(Reference, SamplesInAnyOrderGiveTheSameSums) {
+  RenderSettings tiny = settings();
+  tiny.width = tiny.height = 2;
+  constexpr std::uint32_t spp = 1u << 15;  // of a half
+  // The same samples of a half in another order: an odd factor permutes the indices below 2^15.
+  const auto in_order_of = [](std::uint64_t seed, std::uint32_t factor) -> SampleSource {
+    return [source = noise(seed), factor](int x, int y, std::uint32_t first,
+                                          std::span<glm::vec3> radiance) {
+      for (std::uint32_t i = 0; i < radiance.size(); ++i) {
+        source(x, y, (first + i) * factor % spp, radiance.subspan(i, 1));
+        radiance[i] *= radiance[i] * radiance[i];  // a longer tail: sums round
+      }
+    };
+  };
+  const auto sums_of_order = [&](std::uint32_t factor) {
+    ReferenceRender render({in_order_of(1, factor), in_order_of(2, factor)}, tiny);
+    render.add(2 * spp);
+    return render.sums();
+  };
+  const ReferenceSums once = sums_of_order(1);
+  bool differs = false;
+  for (const std::uint32_t factor : {5u, 77u, 12345u, 32767u}) {
+    const ReferenceSums other = sums_of_order(factor);
+    for (std::size_t half = 0; half < 2; ++half) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (int c = 0; c < 3; ++c) {
+          const double ratio = other.halves[half].sums[i][c] / once.halves[half].sums[i][c];
+          EXPECT_NEAR(ratio, 1.0, 1e-12);
+          differs |= ratio != 1.0;
+        }
+      }
+    }
+  }
+  EXPECT_TRUE(differs) << "not one sum was rounded: the samples are too tame to show anything";
+}
+
 TEST(Reference, FitsItsOwnSceneAndSaysWhyItFitsNoOther) {
   const TempFolder folder;
   ReferenceRender render(box(), settings());

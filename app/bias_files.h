@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/run_options.h"
+#include "renderer/image/staged_files.h"
+#include "renderer/measure/bias.h"
+
+namespace quartet {
+
+/// Everything that a measurement of bias is written with.
+struct BiasReport {
+  const Run& run;
+  const std::vector<BiasRuns>& runs;
+  std::uint32_t frames = 15;  ///< of each run
+  double confidence = 0.99;   ///< of all intervals together
+  std::string command_line;
+};
+
+/// How much more energy than uniform sampling, with its interval: "−0.588 % ± 0.590 %".
+std::string energy_text(const BiasReport& report, const BiasRuns& runs);
+
+/// bias.png and bias.pdf, the signed difference of each policy in each mode; bias.exr, the same in
+/// numbers with their standard errors; bias.csv in long form, see csv_header: each seed, and the
+/// mean over all with its interval.
+void write_bias_files(StagedFiles& files, const BiasReport& report);
+
+}  // namespace quartet

@@ -1,0 +1,30 @@
+#include "renderer/measure/rejected.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace quartet {
+
+RejectedSamples rejected_of(std::span<const std::uint32_t> rejected,
+                            std::span<const std::uint32_t> taken, std::uint64_t seed) {
+  RejectedSamples result{.seed = seed};
+  result.count = std::accumulate(rejected.begin(), rejected.end(), std::uint64_t(0));
+  if (result.count > 0) {
+    const auto first = std::ranges::find_if(rejected, [](std::uint32_t n) { return n > 0; });
+    result.pixel = std::size_t(first - rejected.begin());
+    result.taken = taken[result.pixel];
+  }
+  return result;
+}
+
+RejectedSamples rejected_of(const Lane& lane, std::uint64_t seed) {
+  return rejected_of(lane.film().rejected(), lane.taken(), seed);
+}
+
+void keep_most(RejectedSamples& most, const RejectedSamples& other) {
+  if (other.count > most.count) {
+    most = other;
+  }
+}
+
+}  // namespace quartet
