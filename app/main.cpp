@@ -1,5 +1,11 @@
+#include <malloc.h>
+
 #include "app/command_line.h"
 
 int main(int argc, char** argv) {
+  // Planes of a picture come and go with every frame. Memory that goes back to the system each time
+  // must come anew, page by page.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
   return quartet::run_command_line(argc, argv);
 }

@@ -89,7 +89,7 @@ void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
       // Technometrics 4(3), 1962, in the form that needs only the sum so far.
       const double n = double(running.count);
       const glm::dvec3 d = n * glm::dvec3(sample) - running.sum;
-      deviations_[pixel] += d * d / (n * (n + 1.0));
+      deviations_[pixel] += d * d * (1.0 / (n * (n + 1.0)));
     }
     if (!luminances_.empty()) {
       add_luminance(pixel, double(running.count), exact_luminance(sample));

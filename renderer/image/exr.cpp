@@ -7,8 +7,10 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <fmt/format.h>
 #include <half.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cassert>
@@ -41,6 +43,15 @@ class ExrStream : public Imf::OStream {
  private:
   FileWriter& file_;
 };
+
+/// Threads that compress rows, of OpenEXR's own; they start with the first file that is written.
+int compression_threads() {
+  static const int count = [] {
+    Imf::setGlobalThreadCount(tbb::this_task_arena::max_concurrency());
+    return Imf::globalThreadCount();
+  }();
+  return count;
+}
 
 Imath::Box2i box_of(const ExrWindow& window) {
   return {Imath::V2i(window.x, window.y),
@@ -191,7 +202,7 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
       }
     }
     ExrStream stream(file, path.string());
-    Imf::OutputFile output(stream, header);
+    Imf::OutputFile output(stream, header, compression_threads());
     output.setFrameBuffer(buffer);
     output.writePixels(image.height());
   } catch (const std::exception& error) {

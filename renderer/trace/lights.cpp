@@ -211,28 +211,39 @@ LightSample8 Lights::sample(const Vec8& from, Float8 u, Float8 v, Mask8 wanted) 
   if (lights_.empty()) {
     return s;
   }
-  // Half a cache line of each light at a time, into columns.
-  const float* rows[simd_lanes];
   Float8 columns[2 * simd_lanes];
   Float8 probability{};
   Int8 kinds{};
   Mask8 textured{};
   const Light* lights[simd_lanes];
-  for (int i = 0; i < simd_lanes; ++i) {
-    const Choice choice = choose(u[i]);
-    const Light& light = *choice.light;
-    lights[i] = &light;
-    u[i] = choice.u;
-    probability[i] = light.probability;
-    kinds[i] = int(light.kind);
-    textured[i] = -int(light.textured);
-    rows[i] = &light.origin.x;
+  if (lights_.size() == 1) {
+    const Light& light = lights_.front();
+    std::fill_n(lights, simd_lanes, &light);
+    probability = splat(light.probability);
+    kinds = int(light.kind) - Int8{};
+    textured = -int(light.textured) - Int8{};
+    for (int i = 0; i < 2 * simd_lanes; ++i) {
+      columns[i] = splat((&light.origin.x)[i]);
+    }
+  } else {
+    const float* rows[simd_lanes];
+    for (int i = 0; i < simd_lanes; ++i) {
+      const Choice choice = choose(u[i]);
+      const Light& light = *choice.light;
+      lights[i] = &light;
+      u[i] = choice.u;
+      probability[i] = light.probability;
+      kinds[i] = int(light.kind);
+      textured[i] = -int(light.textured);
+      rows[i] = &light.origin.x;
+    }
+    // Half a cache line of each light at a time.
+    transpose(rows, columns);
+    for (const float*& row : rows) {
+      row += simd_lanes;
+    }
+    transpose(rows, columns + simd_lanes);
   }
-  transpose(rows, columns);
-  for (const float*& row : rows) {
-    row += simd_lanes;
-  }
-  transpose(rows, columns + simd_lanes);
   const auto column = [&](int i) { return Vec8{columns[i], columns[i + 1], columns[i + 2]}; };
 
   s.is_point = kinds == int(Kind::point);

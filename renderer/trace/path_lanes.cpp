@@ -238,6 +238,9 @@ BsdfSample8 sample(const Vertices& vertices, const Vec8& wo, Float8 u, Float8 v,
 /// Adds the light that paths ran into.
 template <bool NextEvent>
 void add_found_light(const TraceScene& scene, Paths& paths) {
+  if (!scene.lights().can_be_met()) {
+    return;
+  }
   const Hit8& hits = paths.hit;
   const Mask8 missed = paths.active & ~hits.met;
   const Mask8 weighted = NextEvent ? paths.bsdf_pdf > 0.0f : Mask8{};

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <utility>
+#include <numeric>
 
 #include "renderer/parallel.h"
 #include "renderer/stopwatch.h"
@@ -15,9 +15,10 @@ namespace {
 
 // Samples asked for at a time. Far fewer, and a source that traces several paths at once spends its
 // time waiting for the last ones; many more, and it is long before a pass can be stopped.
-constexpr std::size_t batch_samples = 1024;
+constexpr std::size_t batch_samples = 2048;
 // The same for looking at counts.
 constexpr std::size_t grain_checks = 1 << 15;
+constexpr std::size_t grain_tiles = grain_checks / PlanePool::plane_values;
 
 }  // namespace
 
@@ -51,6 +52,7 @@ SampleStore::SampleStore(int width, int height, std::size_t memory_budget, bool 
         }
       }
       tiles_.push_back(empty);
+      first_pixels_.push_back(pixels_.size());
     }
   }
 }
@@ -78,8 +80,10 @@ bool SampleStore::holds(std::span<const std::uint32_t> taken,
   return all;
 }
 
-/// Gives the tile planes for samples [begin, end).
-void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end) {
+/// Gives the tile planes for samples [begin, end). The pools are for one thread at a time.
+void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end,
+                              std::mutex& pools) {
+  const std::lock_guard lock(pools);
   if (tile.samples.empty()) {
     tile.base = has_means_ ? 0 : begin;
   }
@@ -122,37 +126,52 @@ void SampleStore::clear(std::size_t pixel) {
   ends_[pixel] = 0;
 }
 
-/// Lists what is missing, with planes to put it in.
+/// Lists what is missing, with planes to put it in; tiles are looked at side by side.
 void SampleStore::plan_pass(std::span<const std::uint32_t> begin,
                             std::span<const std::uint32_t> end) {
-  jobs_.clear();
-  std::uint32_t tile = UINT32_MAX;
-  // The planes made last: neighbours mostly want the same.
-  std::uint32_t made_begin = 0;
-  std::uint32_t made_end = 0;
-  for (const std::uint32_t pixel : pixels_) {
-    if (begin[pixel] >= end[pixel]) {
-      continue;
+  std::vector<std::size_t> first_jobs(tiles_.size() + 1, 0);  // at first: how many, one tile on
+  std::atomic<std::uint64_t> cleared = 0;
+  std::mutex pools;
+  parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    for (std::size_t tile = first; tile < last; ++tile) {
+      // The planes made last: neighbours mostly want the same.
+      std::uint32_t made_begin = 0;
+      std::uint32_t made_end = 0;
+      for (const std::uint32_t pixel : pixels_of(tile)) {
+        if (begin[pixel] >= end[pixel]) {
+          continue;
+        }
+        if (begin[pixel] < firsts_[pixel] || begin[pixel] > ends_[pixel]) {
+          // A gap, which a store with means never has: no lane is ahead of what was traced for it.
+          assert(!has_means_);
+          cleared += ends_[pixel] - firsts_[pixel];
+          firsts_[pixel] = ends_[pixel] = begin[pixel];
+        }
+        if (end[pixel] <= ends_[pixel]) {
+          continue;
+        }
+        if (ends_[pixel] < made_begin || end[pixel] > made_end) {
+          made_begin = ends_[pixel];
+          made_end = end[pixel];
+          make_planes(tiles_[tile], made_begin, made_end, pools);
+        }
+        ++first_jobs[tile + 1];
+      }
     }
-    if (begin[pixel] < firsts_[pixel] || begin[pixel] > ends_[pixel]) {
-      // A gap, which a store with means never has: no lane is ahead of what was traced for it.
-      assert(!has_means_);
-      clear(pixel);
-      firsts_[pixel] = ends_[pixel] = begin[pixel];
+  });
+  stored_ -= cleared;
+  std::partial_sum(first_jobs.begin(), first_jobs.end(), first_jobs.begin());
+  jobs_.resize(first_jobs.back());
+  parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    for (std::size_t tile = first; tile < last; ++tile) {
+      std::size_t job = first_jobs[tile];
+      for (const std::uint32_t pixel : pixels_of(tile)) {
+        if (begin[pixel] < end[pixel] && ends_[pixel] < end[pixel]) {
+          jobs_[job++] = {.pixel = pixel, .count = end[pixel] - ends_[pixel]};
+        }
+      }
     }
-    if (end[pixel] <= ends_[pixel]) {
-      continue;
-    }
-    const bool made =
-        places_[pixel].tile == tile && ends_[pixel] >= made_begin && end[pixel] <= made_end;
-    if (!made) {
-      tile = places_[pixel].tile;
-      made_begin = ends_[pixel];
-      made_end = end[pixel];
-      make_planes(tiles_[tile], made_begin, made_end);
-    }
-    jobs_.push_back({.pixel = pixel, .count = end[pixel] - ends_[pixel]});
-  }
+  });
 }
 
 bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <mutex>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -142,7 +143,11 @@ class SampleStore {
     bool rejected = false;  // any of them
   };
 
-  void make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end);
+  std::span<const std::uint32_t> pixels_of(std::size_t tile) const {
+    return std::span(pixels_).subspan(first_pixels_[tile],
+                                      first_pixels_[tile + 1] - first_pixels_[tile]);
+  }
+  void make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end, std::mutex& pools);
   void release_planes_below(Tile& tile, std::uint32_t index);
   void clear(std::size_t pixel);
   void plan_pass(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end);
@@ -154,6 +159,7 @@ class SampleStore {
   int height_;
   std::size_t memory_budget_;
   std::vector<std::uint32_t> pixels_;
+  std::vector<std::size_t> first_pixels_{0};  // of each tile, in pixels_; and where all end
   std::vector<Place> places_;
   // Samples [first, end) of a pixel are here.
   std::vector<std::uint32_t> firsts_;

@@ -27,6 +27,7 @@ TraceScene::TraceScene(Scene scene)
     record.plain =
         mesh && !record.smooth && !record.textured && material.kind == MaterialKind::diffuse;
     record.emits = shape.emits;
+    record.two_sided = record.material->two_sided;
     if (record.plain) {
       for (Facet& facet : record.facets) {
         facet.reflectance = material.reflectance.value;

@@ -31,7 +31,7 @@ class TraceScene {
     return record.plain ? &record.facets[primitive] : nullptr;
   }
   bool emits(std::uint32_t shape) const { return records_[shape].emits; }
-  bool two_sided(std::uint32_t shape) const { return records_[shape].material->two_sided; }
+  bool two_sided(std::uint32_t shape) const { return records_[shape].two_sided; }
 
   Surface surface(const Ray& ray, const Hit& hit) const {
     const ShapeRecord& record = records_[hit.shape];
@@ -66,6 +66,7 @@ class TraceScene {
     bool textured;              // some colour of it depends on uv
     bool plain;                 // neither, and diffuse
     bool emits;
+    bool two_sided;
   };
 
   static Surface surface_without_facets(const ShapeRecord& record, const Ray& ray, const Hit& hit);
