@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -18,11 +19,15 @@
 #include "app/sweep_files.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/image/ticks.h"
+#include "renderer/measure/experiment.h"
 #include "renderer/measure/sweep_charts.h"
 #include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
+
+// Odd, for the median.
+constexpr std::size_t verify_rounds = 5;
 
 struct SweepOptions {
   RunOptions run;
@@ -125,38 +130,69 @@ void print_savings(const SweepResult& result) {
              result.partial ? "; some were traced again: a larger --memory would keep them" : "");
 }
 
-/// Reruns every policy at its default thresholds, and the baseline, each alone in a lab of its own,
-/// and compares what a user waits with what the sweep charged.
+/// What a run of some frames takes when it is alone in a lab of its own.
+double seconds_alone(const SampleWorld& world, const SamplingPolicy& policy, std::uint32_t frames,
+                     std::stop_token stop) {
+  Lab lab(world.source(world.first_seed), world.width, world.height, std::span(&policy, 1),
+          lab_options(world, world.first_seed));
+  const Stopwatch watch;
+  while (lab.frame() < frames) {
+    if (!lab.run_frame(stop) || stop.stop_requested()) {
+      throw Interrupted();
+    }
+  }
+  return watch.seconds();
+}
+
+double median(std::array<double, verify_rounds> values) {
+  std::ranges::sort(values);
+  return values[verify_rounds / 2];
+}
+
+/// Reruns every policy at its default thresholds, and the baseline: out of shared samples, as the
+/// sweep did, and each alone, in turn, because the speed of a machine drifts. Compares what a user
+/// waits with what is charged, by the medians of some rounds.
 void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_token stop) {
+  struct Point {
+    SamplingPolicy policy;
+    Measurement end;
+    std::array<double, verify_rounds> charged{};
+    std::array<double, verify_rounds> alone{};
+  };
+  std::vector<Point> points{{default_policy(EstimatorId::uniform), result.uniform.front().back()}};
+  for (const SweepRun& run : result.runs) {
+    if (run.seed == result.first_seed && run.factor == 1.0) {
+      points.push_back({run.policy, run.end});
+    }
+  }
+  for (std::size_t round = 0; round < verify_rounds; ++round) {
+    Experiment shared(world.source(world.first_seed), world.width, world.height,
+                      lab_options(world, world.first_seed), world.reference);
+    for (Point& point : points) {
+      const std::uint32_t frames = point.end.record.frame;
+      const auto charged = shared.run({.policy = point.policy, .stop = {.frames = frames}}, stop);
+      if (!charged) {
+        throw Interrupted();
+      }
+      point.charged[round] = charged->back().record.seconds;
+      point.alone[round] = seconds_alone(world, point.policy, frames, stop);
+    }
+  }
   fmt::print("\n{:<22} {:>9} {:>14} {:>14} {:>11}\n", "estimator", "mean spp", "as if alone, s",
              "alone, s", "difference");
   double sum = 0.0;
   double absolute = 0.0;
-  int count = 0;
-  const auto compare = [&](const SamplingPolicy& policy, const Measurement& charged) {
-    Lab lab(world.source(world.first_seed), world.width, world.height, std::span(&policy, 1),
-            lab_options(world, world.first_seed));
-    const Stopwatch watch;
-    while (lab.frame() < charged.record.frame) {
-      if (!lab.run_frame(stop) || stop.stop_requested()) {
-        throw Interrupted();
-      }
-    }
-    const double alone = watch.seconds();
-    const double difference = charged.record.seconds / alone - 1.0;
+  for (const Point& point : points) {
+    const double charged = median(point.charged);
+    const double alone = median(point.alone);
+    const double difference = charged / alone - 1.0;
     fmt::print("{:<22} {:>9.2f} {:>14.3f} {:>14.3f} {:>+9.1f} %\n",
-               estimator(policy.estimator).label, charged.mean_spp, charged.record.seconds, alone,
+               estimator(point.policy.estimator).label, point.end.mean_spp, charged, alone,
                100.0 * difference);
     sum += difference;
     absolute += std::abs(difference);
-    ++count;
-  };
-  compare(default_policy(EstimatorId::uniform), result.uniform.front().back());
-  for (const SweepRun& run : result.runs) {
-    if (run.seed == result.first_seed && run.factor == 1.0) {
-      compare(run.policy, run.end);
-    }
   }
+  const auto count = double(points.size());
   fmt::print("as-if-alone time is off by {:+.1f} % on average, {:.1f} % in absolute terms{}\n",
              100.0 * sum / count, 100.0 * absolute / count,
              std::abs(sum) <= 0.05 * count ? "" : ": more than the 5 % that are promised");
