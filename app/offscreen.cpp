@@ -74,12 +74,13 @@ Offscreen::Offscreen(int width, int height)
   }
   context_->gl = load_gl([](const char* name) -> GlFunction { return eglGetProcAddress(name); });
 
-  // The context owns these; they go with it.
+  // The context owns these; they go with it. BGRA, as the pixels of a window lie: the software
+  // rasteriser has faster ways for it.
   const GlFunctions& functions = context_->gl;
   GLuint texture = 0;
   functions.gen_textures(1, &texture);
   functions.bind_texture(GL_TEXTURE_2D, texture);
-  functions.tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+  functions.tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_BGRA, GL_UNSIGNED_BYTE,
                          nullptr);
   GLuint framebuffer = 0;
   functions.gen_framebuffers(1, &framebuffer);

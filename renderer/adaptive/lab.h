@@ -40,6 +40,8 @@ class Lab {
   const SampleStore* pilot_store() const { return pilot_ ? &pilot_->store : nullptr; }
   /// The frame that the lanes furthest behind have finished.
   std::uint32_t frame() const;
+  /// The threads it works on, for what others make of its lanes.
+  tbb::task_arena& threads() const { return arena_; }
 
   // Of both stores:
   std::uint64_t stored_samples() const;
@@ -88,7 +90,7 @@ class Lab {
   // Samples that a frame needs, first and past the last of each pixel.
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> end_;
-  tbb::task_arena arena_;
+  mutable tbb::task_arena arena_;
 };
 
 /// The tracer as a source of samples.

@@ -35,6 +35,18 @@ void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_
   }
 }
 
+/// Sum of samples times their cost over pixels [begin, end).
+double cost_of(const std::uint32_t* samples, const float* cost, std::size_t begin,
+               std::size_t end) {
+  double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+  for (std::size_t i = begin; i < end; ++i) {
+    // Through int, for which there are vectors.
+    sum += double(float(std::int32_t(samples[i])) * cost[i]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 Lane::Lane(int width, int height, const SamplingPolicy& policy, const LaneInputs& inputs)
@@ -119,20 +131,14 @@ Lane::RowTotal Lane::count(const LaneStores& stores, std::size_t begin, std::siz
   const std::uint16_t* wanted = plan_.wanted.data();
   const float* cost = stores.shown.seconds_per_sample().data();
   std::uint32_t most = 0;
-  double seconds = 0.0;
-#pragma omp simd reduction(max : most) reduction(+ : seconds)
+#pragma omp simd reduction(max : most)
   for (std::size_t i = begin; i < end; ++i) {
     taken[i] += wanted[i];
     most = std::max(most, taken[i]);
-    // Through int, for which there are vectors.
-    seconds += double(std::int32_t(taken[i])) * double(cost[i]);
   }
+  double seconds = cost_of(taken, cost, begin, end);
   if (pilot_) {
-    const float* pilot_cost = stores.pilot->seconds_per_sample().data();
-#pragma omp simd reduction(+ : seconds)
-    for (std::size_t i = begin; i < end; ++i) {
-      seconds += double(std::int32_t(taken[i])) * double(pilot_cost[i]);
-    }
+    seconds += cost_of(taken, stores.pilot->seconds_per_sample().data(), begin, end);
   }
   return {most, seconds};
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/parallel.h"
 
 namespace quartet {
 namespace {
@@ -61,20 +62,21 @@ void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline) {
   snapshot.frame = lab.frame();
   assert(std::ranges::all_of(lab.lanes(),
                              [&](const Lane& lane) { return lane.frame() == snapshot.frame; }));
-  std::span<const Lane> lanes = lab.lanes();
-  if (last_is_baseline) {
-    if (!snapshot.baseline) {
-      snapshot.baseline.emplace();
-    }
-    copy_lane(lanes.back(), *snapshot.baseline);
-    lanes = lanes.first(lanes.size() - 1);
-  } else {
+  const std::span<const Lane> lanes = lab.lanes();
+  const std::size_t compared = last_is_baseline ? lanes.size() - 1 : lanes.size();
+  snapshot.lanes.resize(compared);
+  if (!last_is_baseline) {
     snapshot.baseline.reset();
+  } else if (!snapshot.baseline) {
+    snapshot.baseline.emplace();
   }
-  snapshot.lanes.resize(lanes.size());
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    copy_lane(lanes[i], snapshot.lanes[i]);
-  }
+  lab.threads().execute([&] {
+    parallel_for(lanes.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        copy_lane(lanes[i], i < compared ? snapshot.lanes[i] : *snapshot.baseline);
+      }
+    });
+  });
 }
 
 }  // namespace quartet
