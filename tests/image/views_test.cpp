@@ -4,6 +4,7 @@
 
 #include <array>
 #include <set>
+#include <stdexcept>
 
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/pixel_values.h"
