@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "renderer/adaptive/session.h"
@@ -35,24 +38,47 @@ LabRequest lab_request(std::size_t lanes, int threads) {
   return request;
 }
 
-std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
-                                         std::uint32_t frame) {
-  for (;;) {
-    auto snapshot = session.latest();
-    if (snapshot && snapshot->request >= number && snapshot->frame == frame) {
-      return snapshot;
+/// Somebody who asks a session and sleeps until it has something new, as a window does.
+class Client {
+ public:
+  Session& session() { return session_; }
+
+  /// Submits a request, and returns once its snapshot at `frame` is there.
+  void ask(LabRequest request, std::uint32_t frame) {
+    const std::uint64_t number = session_.submit(std::move(request));
+    const auto answered = [&] {
+      const auto snapshot = session_.latest();
+      return snapshot && snapshot->request >= number && snapshot->frame == frame;
+    };
+    std::unique_lock lock(mutex_);
+    while (!answered()) {
+      news_.wait(lock, [&] { return std::exchange(is_new_, false); });
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
-}
+
+ private:
+  void wake() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_new_ = true;
+    }
+    news_.notify_one();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable news_;
+  bool is_new_ = false;
+  Session session_{[this] { wake(); }};
+};
 
 /// Calls alternate with what a window does between two pictures, so that they meet the renderer at
 /// any moment.
 void calls_while_busy(benchmark::State& state) {
-  Session session;
+  Client client;
+  Session& session = client.session();
   LabRequest request = lab_request(4, 0);
   request.frame = LabRequest::no_end;
-  wait_for(session, session.submit(request), 1);
+  client.ask(request, 1);
   std::vector<double> submits;
   std::vector<double> latests;
   const auto timed = [](std::vector<double>& times, const auto& call) {
@@ -81,7 +107,8 @@ BENCHMARK(calls_while_busy)->Iterations(2000)->UseRealTime()->Unit(benchmark::kM
 /// `measured`: with a reference, against which each frame is measured.
 void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dragged, int threads,
                       bool measured = false) {
-  Session session;
+  Client client;
+  const Session& session = client.session();
   LabRequest request = lab_request(lanes, threads);
   if (measured) {
     request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
@@ -94,7 +121,7 @@ void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dr
             original[i].thresholds[c] * (1.0f + 0.01f * float(step));
       }
     }
-    wait_for(session, session.submit(request), request.frame);
+    client.ask(request, request.frame);
   };
   constexpr int steps = 10;
   for (int step = 0; step < steps; ++step) {
@@ -126,11 +153,11 @@ BENCHMARK_CAPTURE(drag_to_snapshot, four_lanes_measured, 4, 4, 2, true)
     ->UseRealTime();
 
 void camera_to_first_picture(benchmark::State& state) {
-  Session session;
+  Client client;
   LabRequest request = lab_request(4, 2);
   for (auto _ : state) {
     request.settings.camera.origin.x += 1e-4f;
-    wait_for(session, session.submit(request), 1);
+    client.ask(request, 1);
   }
 }
 BENCHMARK(camera_to_first_picture)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -140,11 +167,11 @@ void close_while_busy(benchmark::State& state) {
   request.frame = LabRequest::no_end;
   for (auto _ : state) {
     state.PauseTiming();
-    auto session = std::make_unique<Session>();
-    wait_for(*session, session->submit(request), 1);
+    auto client = std::make_unique<Client>();
+    client->ask(request, 1);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     state.ResumeTiming();
-    session.reset();
+    client.reset();
   }
 }
 BENCHMARK(close_while_busy)->Iterations(5)->Unit(benchmark::kMillisecond)->UseRealTime();
