@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -19,15 +18,13 @@
 #include "app/sweep_files.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/image/ticks.h"
-#include "renderer/measure/experiment.h"
 #include "renderer/measure/sweep_charts.h"
 #include "renderer/stopwatch.h"
 
 namespace quartet {
 namespace {
 
-// Odd, for the median.
-constexpr std::size_t verify_rounds = 5;
+constexpr int verify_rounds = 5;
 
 struct SweepOptions {
   RunOptions run;
@@ -130,25 +127,6 @@ void print_savings(const SweepResult& result) {
              result.partial ? "; some were traced again: a larger --memory would keep them" : "");
 }
 
-/// What a run of some frames takes when it is alone in a lab of its own.
-double seconds_alone(const SampleWorld& world, const SamplingPolicy& policy, std::uint32_t frames,
-                     std::stop_token stop) {
-  Lab lab(world.source(world.first_seed), world.width, world.height, std::span(&policy, 1),
-          lab_options(world, world.first_seed));
-  const Stopwatch watch;
-  while (lab.frame() < frames) {
-    if (!lab.run_frame(stop) || stop.stop_requested()) {
-      throw Interrupted();
-    }
-  }
-  return watch.seconds();
-}
-
-double median(std::array<double, verify_rounds> values) {
-  std::ranges::sort(values);
-  return values[verify_rounds / 2];
-}
-
 /// Reruns every policy at its default thresholds, and the baseline: out of shared samples, as the
 /// sweep did, and each alone, in turn, because the speed of a machine drifts. Compares what a user
 /// waits with what is charged, by the medians of some rounds.
@@ -156,8 +134,18 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
   struct Point {
     SamplingPolicy policy;
     Measurement end;
-    std::array<double, verify_rounds> charged{};
-    std::array<double, verify_rounds> alone{};
+    std::vector<double> charged = {};
+    std::vector<double> alone = {};
+
+    /// Runs it as far as the sweep did, and returns what that is charged with.
+    double seconds(Experiment& experiment, std::stop_token stop) const {
+      const auto run =
+          experiment.run({.policy = policy, .stop = {.frames = end.record.frame}}, stop);
+      if (!run) {
+        throw Interrupted();
+      }
+      return run->back().record.seconds;
+    }
   };
   std::vector<Point> points{{default_policy(EstimatorId::uniform), result.uniform.front().back()}};
   for (const SweepRun& run : result.runs) {
@@ -165,17 +153,14 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
       points.push_back({run.policy, run.end});
     }
   }
-  for (std::size_t round = 0; round < verify_rounds; ++round) {
-    Experiment shared(world.source(world.first_seed), world.width, world.height,
-                      lab_options(world, world.first_seed), world.reference);
+  for (int round = 0; round < verify_rounds; ++round) {
+    Experiment shared = make_experiment(world, world.first_seed);
     for (Point& point : points) {
-      const std::uint32_t frames = point.end.record.frame;
-      const auto charged = shared.run({.policy = point.policy, .stop = {.frames = frames}}, stop);
-      if (!charged) {
-        throw Interrupted();
-      }
-      point.charged[round] = charged->back().record.seconds;
-      point.alone[round] = seconds_alone(world, point.policy, frames, stop);
+      point.charged.push_back(point.seconds(shared, stop));
+      Experiment own = make_experiment(world, world.first_seed);
+      const Stopwatch watch;
+      point.seconds(own, stop);
+      point.alone.push_back(watch.seconds());
     }
   }
   fmt::print("\n{:<22} {:>9} {:>14} {:>14} {:>11}\n", "estimator", "mean spp", "as if alone, s",

@@ -35,16 +35,17 @@ void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_
   }
 }
 
-/// Sum of samples times their cost over pixels [begin, end).
-double cost_of(const std::uint32_t* samples, const float* cost, std::size_t begin,
-               std::size_t end) {
-  double sum = 0.0;
-#pragma omp simd reduction(+ : sum)
+/// What samples of pixels [begin, end) took to trace.
+double seconds_of(const std::uint32_t* samples, const SampleStore& store, std::size_t begin,
+                  std::size_t end) {
+  const float* cost = store.seconds_per_sample().data();
+  double seconds = 0.0;
+#pragma omp simd reduction(+ : seconds)
   for (std::size_t i = begin; i < end; ++i) {
     // Through int, for which there are vectors.
-    sum += double(float(std::int32_t(samples[i])) * cost[i]);
+    seconds += double(std::int32_t(samples[i])) * double(cost[i]);
   }
-  return sum;
+  return seconds;
 }
 
 }  // namespace
@@ -129,16 +130,15 @@ void Lane::end_frame(double take_seconds) {
 Lane::RowTotal Lane::count(const LaneStores& stores, std::size_t begin, std::size_t end) {
   std::uint32_t* taken = taken_.data();
   const std::uint16_t* wanted = plan_.wanted.data();
-  const float* cost = stores.shown.seconds_per_sample().data();
   std::uint32_t most = 0;
 #pragma omp simd reduction(max : most)
   for (std::size_t i = begin; i < end; ++i) {
     taken[i] += wanted[i];
     most = std::max(most, taken[i]);
   }
-  double seconds = cost_of(taken, cost, begin, end);
+  double seconds = seconds_of(taken, stores.shown, begin, end);
   if (pilot_) {
-    seconds += cost_of(taken, stores.pilot->seconds_per_sample().data(), begin, end);
+    seconds += seconds_of(taken, *stores.pilot, begin, end);
   }
   return {most, seconds};
 }

@@ -166,6 +166,10 @@ LabOptions lab_options(const SampleWorld& world, std::uint64_t seed) {
   return options;
 }
 
+Experiment make_experiment(const SampleWorld& world, std::uint64_t seed) {
+  return {world.source(seed), world.width, world.height, lab_options(world, seed), world.reference};
+}
+
 std::vector<double> sweep_factors(const SweepPlan& plan) {
   std::vector<double> factors;
   const double step =
@@ -196,8 +200,7 @@ std::optional<SweepResult> run_sweep(
     told.begin_seed(k);
     const std::uint64_t seed = world.first_seed + k;
     // Each seed has a store of its own, gone with it: memory does not grow with seeds.
-    Experiment experiment(world.source(seed), world.width, world.height, lab_options(world, seed),
-                          world.reference);
+    Experiment experiment = make_experiment(world, seed);
     if (!run_seed(experiment, seed, plan, stop, told, result)) {
       return std::nullopt;
     }

@@ -30,6 +30,8 @@ struct SampleWorld {
 /// The options of a lab that draws from it with a seed: with its pilot source, and the reference
 /// for estimators that look at it.
 LabOptions lab_options(const SampleWorld& world, std::uint64_t seed);
+/// Runs over samples of one seed, none of which is traced yet.
+Experiment make_experiment(const SampleWorld& world, std::uint64_t seed);
 
 /// The tracer, with the settings but for their seed, which is the first one.
 SampleWorld sample_world(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings,
