@@ -29,7 +29,6 @@ GlFunctions load_gl(GlFunction (*get)(const char* name)) {
   load(gl.pixel_store, get, "glPixelStorei");
   load(gl.tex_image_2d, get, "glTexImage2D");
   load(gl.tex_sub_image_2d, get, "glTexSubImage2D");
-  load(gl.generate_mipmap, get, "glGenerateMipmap");
   load(gl.gen_framebuffers, get, "glGenFramebuffers");
   load(gl.bind_framebuffer, get, "glBindFramebuffer");
   load(gl.framebuffer_texture_2d, get, "glFramebufferTexture2D");

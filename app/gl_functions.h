@@ -17,7 +17,6 @@ struct GlFunctions {
   PFNGLPIXELSTOREIPROC pixel_store;
   PFNGLTEXIMAGE2DPROC tex_image_2d;
   PFNGLTEXSUBIMAGE2DPROC tex_sub_image_2d;
-  PFNGLGENERATEMIPMAPPROC generate_mipmap;
   PFNGLGENFRAMEBUFFERSPROC gen_framebuffers;
   PFNGLBINDFRAMEBUFFERPROC bind_framebuffer;
   PFNGLFRAMEBUFFERTEXTURE2DPROC framebuffer_texture_2d;

@@ -27,13 +27,12 @@ std::uintptr_t GlTextures::upload(std::size_t slot, const DisplayImage& image) {
     gl_.tex_image_2d(GL_TEXTURE_2D, 0, GL_RGBA8, image.width(), image.height(), 0, GL_RGBA,
                      GL_UNSIGNED_BYTE, pixels);
     gl_.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    gl_.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl_.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     texture.width = image.width();
     texture.height = image.height();
   }
-  gl_.generate_mipmap(GL_TEXTURE_2D);
   return texture.name;
 }
 

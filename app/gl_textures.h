@@ -17,8 +17,8 @@ class GlTextures {
   GlTextures(const GlTextures&) = delete;
   GlTextures& operator=(const GlTextures&) = delete;
 
-  /// Makes the image that of the slot and returns the texture's handle. Enlarged, its pixels stay
-  /// squares; reduced, they are averaged.
+  /// Makes the image that of the slot and returns the texture's handle. Nothing is filtered: drawn
+  /// larger, its pixels are squares.
   std::uintptr_t upload(std::size_t slot, const DisplayImage& image);
 
  private:

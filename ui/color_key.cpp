@@ -96,19 +96,19 @@ float color_key_height(const Ui& ui, ViewKind kind) {
 }
 
 void draw_color_key(LabFrame& frame, const PictureSlot& slot, const ScreenRect& box) {
-  const PictureCache::Picture* picture =
+  const View* picture =
       frame.pictures.get(slot.texture, frame, slot.source, shown_choice(frame.state, slot));
   if (!picture || box.height <= 0.0f) {
     return;
   }
   const Ui& ui = frame.ui;
-  if (!picture->view.legend.empty()) {
-    draw_legend(ui, box, picture->view.legend);
+  if (!picture->legend.empty()) {
+    draw_legend(ui, box, picture->legend);
   }
-  if (!picture->view.bar) {
+  if (!picture->bar) {
     return;
   }
-  const ColorBar& bar = *picture->view.bar;
+  const ColorBar& bar = *picture->bar;
   ScreenRect strip{box.x, box.y + ui.px(4.0f), box.width, ui.px(bar_height)};
   if (!bar.cap_label.empty()) {
     // The colour that no map has, at the end that it is beyond.

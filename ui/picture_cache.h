@@ -12,14 +12,16 @@ class PictureCache {
  public:
   explicit PictureCache(UploadTexture upload) : upload_(std::move(upload)) {}
 
-  struct Picture {
-    View view;  ///< its pixels are those of the texture
-    std::uintptr_t texture = 0;
-  };
+  /// A lane as its slot wants it, kept under the number of a texture slot. Null before the first
+  /// snapshot.
+  const View* get(std::size_t texture_slot, const LabFrame& frame, std::size_t lane,
+                  const SlotChoice& choice);
 
-  /// A lane as its slot wants it, in a texture slot. Null before the first snapshot.
-  const Picture* get(std::size_t texture_slot, const LabFrame& frame, std::size_t lane,
-                     const SlotChoice& choice);
+  /// What get() drew last in the slot, which must have pixels, as a texture to be drawn over `size`
+  /// pixels of the screen. Where that is larger, the picture's pixels stay squares; where it is
+  /// smaller, they are averaged, here and once: filtered at every drawing they would be a third of
+  /// a frame's cost where no graphics card draws.
+  std::uintptr_t texture(std::size_t texture_slot, glm::ivec2 size);
 
  private:
   struct Entry {
@@ -28,7 +30,9 @@ class PictureCache {
     SlotChoice choice;
     ViewSettings settings;
     bool drawn = false;
-    Picture picture;
+    View view;
+    glm::ivec2 uploaded{0};  // size of the texture; 0 while it shows another view
+    std::uintptr_t texture = 0;
   };
 
   UploadTexture upload_;

@@ -74,11 +74,20 @@ void draw_note(const Ui& ui, const ScreenRect& box, const std::string& note) {
       palette::dim, note.c_str(), nullptr, wrap);
 }
 
-void draw_texture(const PictureCache::Picture& picture, const PicturePlace& place) {
-  const float width = float(picture.view.image.width()) * place.scale;
-  const float height = float(picture.view.image.height()) * place.scale;
-  ImGui::GetWindowDrawList()->AddImage(texture_id(picture.texture), {place.x, place.y},
-                                       {place.x + width, place.y + height});
+void draw_texture(LabFrame& frame, std::size_t texture, const DisplayImage& image,
+                  const PicturePlace& place) {
+  glm::vec2 corner(place.x, place.y);
+  glm::vec2 size = place.scale * glm::vec2(image.width(), image.height());
+  if (place.scale < 1.0f) {
+    // A pixel of the reduced picture is then one of the screen.
+    corner = glm::round(corner);
+    size = glm::max(glm::round(size), glm::vec2(1.0f));
+  }
+  const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;
+  const std::uintptr_t handle =
+      frame.pictures.texture(texture, glm::ivec2(size * glm::vec2(density.x, density.y)));
+  const glm::vec2 end = corner + size;
+  ImGui::GetWindowDrawList()->AddImage(texture_id(handle), {corner.x, corner.y}, {end.x, end.y});
 }
 
 /// A frame around a pixel, light in dark, to be seen on any ground.
@@ -186,7 +195,7 @@ void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int heigh
 
 /// The ground of a slot where its picture leaves it free: to fill what a picture covers would be a
 /// third of a frame's cost where no graphics card draws.
-void draw_well(const LabFrame& frame, const ScreenRect& box, const PictureCache::Picture* picture) {
+void draw_well(const LabFrame& frame, const ScreenRect& box, const View* picture) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ScreenRect rest = box;
   const auto fill = [&](const ScreenRect& strip) {
@@ -195,7 +204,7 @@ void draw_well(const LabFrame& frame, const ScreenRect& box, const PictureCache:
     }
   };
   if (picture) {
-    const DisplayImage& image = picture->view.image;
+    const DisplayImage& image = picture->image;
     const PicturePlace place =
         place_picture(frame.state.pan_zoom, box, image.width(), image.height());
     // A pixel of overlap, because the picture's edge may lie between two.
@@ -211,7 +220,7 @@ void draw_well(const LabFrame& frame, const ScreenRect& box, const PictureCache:
 }
 
 /// Everything of a slot that lies on the picture, clipped to `clip`.
-void draw_pixels(LabFrame& frame, const PictureSlot& slot, const PictureCache::Picture* picture,
+void draw_pixels(LabFrame& frame, const PictureSlot& slot, const View* picture,
                  const ScreenRect& clip) {
   const Ui& ui = frame.ui;
   ImGui::PushClipRect({clip.x, clip.y}, {clip.right(), clip.bottom()}, true);
@@ -220,18 +229,18 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const PictureCache::P
               frame.loading                ? "loading the scene"
               : frame.status.error.empty() ? "waiting for the first frame"
                                            : "nothing was rendered");
-  } else if (picture->view.image.empty()) {
-    draw_note(ui, slot.box, picture->view.note);
+  } else if (picture->image.empty()) {
+    draw_note(ui, slot.box, picture->note);
   } else {
-    const DisplayImage& image = picture->view.image;
+    const DisplayImage& image = picture->image;
     const PicturePlace place =
         place_picture(frame.state.pan_zoom, slot.box, image.width(), image.height());
-    draw_texture(*picture, place);
+    draw_texture(frame, slot.texture, image, place);
     draw_numbers(frame, slot, place, image);
     draw_region(frame, place, image);
-    if (!picture->view.note.empty()) {
+    if (!picture->note.empty()) {
       badge(ui, slot.box.x + ui.px(5.0f), slot.box.bottom() - ui.px(22.0f), palette::dim,
-            picture->view.note);
+            picture->note);
     }
     for (const auto& pixel : {frame.state.pinned, frame.state.hovered}) {
       if (pixel && pixel->x < image.width() && pixel->y < image.height()) {
@@ -256,7 +265,7 @@ std::string slot_name(const PictureSlot& slot) {
 
 void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const PictureCache::Picture* picture =
+  const View* picture =
       frame.pictures.get(slot.texture, frame, slot.source, shown_choice(frame.state, slot));
   // What is submitted first has the mouse first, what is drawn last lies on top: so two channels.
   list.ChannelsSplit(2);
@@ -273,9 +282,9 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
           lane_color(slot.source), fmt::format("lane {}", slot.source + 1));
   }
   list.ChannelsSetCurrent(0);
-  const bool drawn = picture && !picture->view.image.empty();
-  handle_mouse(frame, slot, drawn ? picture->view.image.width() : 0,
-               drawn ? picture->view.image.height() : 0);
+  const bool drawn = picture && !picture->image.empty();
+  handle_mouse(frame, slot, drawn ? picture->image.width() : 0,
+               drawn ? picture->image.height() : 0);
   draw_well(frame, slot.box, drawn ? picture : nullptr);
   draw_pixels(frame, slot, picture, slot.box);
   if (const auto pixel = read_out_pixel(frame.state, frame.snapshot);
@@ -304,7 +313,7 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
   PictureSlot left_of_line = a;
   left_of_line.read_out = false;
   draw_picture_slot(frame, left_of_line);
-  const PictureCache::Picture* picture =
+  const View* picture =
       frame.pictures.get(b.texture, frame, b.source, shown_choice(frame.state, a));
   const ScreenRect right{line, a.box.y, a.box.right() - line, a.box.height};
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -312,6 +321,7 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
     list.AddRectFilled({right.x, right.y}, {right.right(), right.bottom()}, palette::well);
     PictureSlot right_of_line = a;
     right_of_line.source = b.source;
+    right_of_line.texture = b.texture;
     draw_pixels(frame, right_of_line, picture, right);
   }
   list.AddLine({line, a.box.y}, {line, a.box.bottom()}, IM_COL32(255, 255, 255, lit ? 255 : 200),
