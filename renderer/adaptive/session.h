@@ -68,7 +68,7 @@ class Session {
   /// `notify` is called on the session's thread after each new snapshot or status, to wake an event
   /// loop; it must not throw.
   explicit Session(std::function<void()> notify = {});
-  /// Stops within the time of a few samples.
+  /// Stops within the time of a few thousand samples.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;

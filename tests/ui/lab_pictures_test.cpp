@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/image/reduce.h"
+#include "renderer/image/views.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/app/program.h"
 #include "tests/ui/lab_hand.h"
+#include "ui/pan_zoom.h"
 #include "ui/pixel_text.h"
 
 namespace quartet {
@@ -155,6 +158,59 @@ TEST(LabPictures, LayoutsShowTheirLanes) {
   EXPECT_EQ(hand.state().comparison.other, 2u);
   hand.choose("layout", "columns");
   hand.key(key_escape);
+}
+
+/// What a screen shows of a view that is larger than its slot.
+void expect_reduced(LabHand& hand, const std::string& slot, const DisplayImage& view, float from_x,
+                    float to_x) {
+  const ScreenRect box = hand.rect(slot);
+  const PicturePlace place = place_picture(hand.state().pan_zoom, box, view.width(), view.height());
+  ASSERT_LT(place.scale, 1.0f);
+  const glm::ivec2 corner(glm::round(glm::vec2(place.x, place.y)));
+  const glm::ivec2 size(glm::round(place.scale * glm::vec2(view.width(), view.height())));
+  const DisplayImage small = reduce(view, size.x, size.y);
+  const DisplayImage screen = hand.screen();
+  // Below the controls, which lie on the picture.
+  const int left = std::max(int(from_x), corner.x);
+  const int right = std::min(int(to_x), corner.x + size.x);
+  int compared = 0;
+  for (int y = std::max(int(box.y) + 70, corner.y);
+       y < std::min(int(box.bottom()), corner.y + size.y); ++y) {
+    for (int x = left; x < right; ++x) {
+      ASSERT_EQ(screen.at(x, y), small.at(x - corner.x, y - corner.y))
+          << slot << " " << x << "," << y;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 10000);
+}
+
+TEST(LabPictures, OneLargerThanItsSlotIsAveraged) {
+  LabHand hand;
+  hand.state().request.settings.width = 640;
+  hand.state().request.settings.height = 360;
+  hand.state().playback.set_target(2);
+  hand.settle();
+  const auto view = [&](std::size_t lane) {
+    return draw_view(hand.snapshot(), lane, ViewKind::image, hand.state().view).image;
+  };
+  const ScreenRect column = hand.rect("lane1.slot0");
+  expect_reduced(hand, "lane1.slot0", view(1), column.x + 4.0f, column.right() - 4.0f);
+
+  // Either side of the line between two lanes, whose pictures differ.
+  hand.key('l');
+  hand.key('l');
+  hand.key('1');
+  hand.key('w');
+  hand.state().pan_zoom.zoom = 0.4f;
+  hand.move(-100.0f, -100.0f);
+  hand.settle();
+  const Comparison& comparison = hand.state().comparison;
+  ASSERT_NE(view(comparison.lane), view(comparison.other));
+  const ScreenRect slot = hand.rect("lane0.slot0");
+  const float line = slot.x + comparison.wipe_at * slot.width;
+  expect_reduced(hand, "lane0.slot0", view(comparison.lane), slot.x + 4.0f, line - 4.0f);
+  expect_reduced(hand, "lane0.slot0", view(comparison.other), line + 4.0f, slot.right() - 4.0f);
 }
 
 TEST(LabPictures, HoldingAKeyShowsTheFirstLaneEverywhere) {
