@@ -39,8 +39,10 @@ bool looks_up(const Film& film, const SampleStore& store) {
 /// Reads the means of all samples taken, one tile after the other as they lie in memory.
 void look_up(Film& film, const FrameSamples& frame, int tile_row) {
   // Asked for this many tiles ahead, means have come when they are wanted; else a replay does
-  // little but wait for memory.
+  // little but wait for memory. Into the second-level cache, which waits for more lines at a time
+  // than the first does.
   constexpr int ahead = 4;
+  constexpr int second_level = 2;
   constexpr int side = SampleStore::tile_size;
   const SampleStore& store = frame.store;
   const std::size_t width = std::size_t(film.width());
@@ -51,7 +53,7 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row) {
       for (int y = 0; y < tile.rows; ++y) {
         const std::uint32_t* n = taken + std::size_t(tile.top + y) * width + std::size_t(tile.left);
         for (int x = 0; x < tile.columns; ++x) {
-          __builtin_prefetch(tile.of(n[x]) + std::ptrdiff_t(y) * side + x);
+          __builtin_prefetch(tile.of(n[x]) + std::ptrdiff_t(y) * side + x, 0, second_level);
         }
       }
     }

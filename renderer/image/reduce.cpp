@@ -30,38 +30,44 @@ std::vector<Share> shares(int from_count, int to_count) {
   return all;
 }
 
-glm::vec4 values_of(const Rgba8& pixel) {
-  return {pixel.r, pixel.g, pixel.b, pixel.a};
-}
-Rgba8 rounded(const glm::vec4& values) {
-  const glm::vec4 v = values + 0.5f;
-  return {std::uint8_t(v.x), std::uint8_t(v.y), std::uint8_t(v.z), std::uint8_t(v.w)};
-}
-
 }  // namespace
 
 DisplayImage reduce(const DisplayImage& image, int width, int height) {
+  static_assert(sizeof(Rgba8) == 4);
   const std::vector<Share> columns = shares(image.width(), width);
   const std::vector<Share> rows = shares(image.height(), height);
-  const auto columns_in = std::size_t(image.width());
-  const auto columns_out = std::size_t(width);
+  const std::size_t bytes_in = 4 * std::size_t(image.width());
+  const std::size_t bytes_out = 4 * std::size_t(width);
   DisplayImage reduced(width, height);
-  std::vector<glm::vec4> row(columns_in);
-  std::vector<glm::vec4> sums(columns_out);
+  const auto* in = reinterpret_cast<const std::uint8_t*>(image.pixels().data());
+  auto* out = reinterpret_cast<std::uint8_t*>(reduced.pixels().data());
+  std::vector<float> row(bytes_in);
+  std::vector<float> sums(bytes_out);
   auto share = rows.begin();
-  for (std::size_t y = 0; y < std::size_t(height); ++y) {
-    std::fill(row.begin(), row.end(), glm::vec4(0.0f));
+  for (std::size_t y = 0; y < std::size_t(height); ++y, out += bytes_out) {
+    std::fill(row.begin(), row.end(), 0.0f);
     for (; share != rows.end() && share->to == y; ++share) {
-      const Rgba8* in = image.pixels().data() + share->from * columns_in;
-      for (std::size_t x = 0; x < columns_in; ++x) {
-        row[x] += share->weight * values_of(in[x]);
+      const std::uint8_t* values = in + share->from * bytes_in;
+      float* sum = row.data();
+      const float weight = share->weight;
+#pragma omp simd
+      for (std::size_t i = 0; i < bytes_in; ++i) {
+        sum[i] += weight * float(values[i]);
       }
     }
-    std::fill(sums.begin(), sums.end(), glm::vec4(0.0f));
+    // Rounded by what they begin with.
+    std::fill(sums.begin(), sums.end(), 0.5f);
     for (const Share& column : columns) {
-      sums[column.to] += column.weight * row[column.from];
+      const float* values = row.data() + 4 * column.from;
+      float* sum = sums.data() + 4 * column.to;
+      for (int c = 0; c < 4; ++c) {
+        sum[c] += column.weight * values[c];
+      }
     }
-    std::transform(sums.begin(), sums.end(), reduced.pixels().data() + y * columns_out, rounded);
+#pragma omp simd
+    for (std::size_t i = 0; i < bytes_out; ++i) {
+      out[i] = std::uint8_t(int(sums[i]));
+    }
   }
   return reduced;
 }

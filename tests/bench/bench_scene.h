@@ -10,7 +10,7 @@
 
 namespace quartet {
 
-/// A built-in scene at a size, ready to render.
+/// A built-in scene or a file at a size, ready to render.
 struct BenchScene {
   std::shared_ptr<const TraceScene> scene;
   RenderSettings settings;

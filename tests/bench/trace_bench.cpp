@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <limits>
 #include <vector>
 
 #include "renderer/trace/path.h"
@@ -80,8 +81,9 @@ void retrace(RTCScene scene, const Recorder& recorder) {
 }
 
 /// One thread: tracing and retracing in turn, so that both see the same machine.
-void trace_against_rays_alone(benchmark::State& state) {
-  const BenchScene bench("cornell-box", size, size);
+void trace_against_rays_alone(benchmark::State& state, const char* scene, int max_depth) {
+  BenchScene bench(scene, size, size);
+  bench.settings.max_depth = max_depth;
   const SampleSource source = sample_source(bench.scene, bench.settings);
   // In batches of the sample store's size.
   constexpr int rows = 4;
@@ -107,12 +109,21 @@ void trace_against_rays_alone(benchmark::State& state) {
     retracing += retracing_watch.seconds();
   }
   const double rays = double(recorder.rays.size()) * double(state.iterations());
+  state.counters["rays/path"] = double(recorder.rays.size()) / double(size * size);
   state.counters["Mpaths/s"] = double(size * size) * double(state.iterations()) / tracing * 1e-6;
   state.counters["Mrays/s"] = rays / tracing * 1e-6;
   state.counters["limit_Mrays/s"] = rays / retracing * 1e-6;
   state.counters["of_limit"] = retracing / tracing;
 }
-BENCHMARK(trace_against_rays_alone)->Unit(benchmark::kMillisecond)->MinTime(3.0);
+BENCHMARK_CAPTURE(trace_against_rays_alone, cornell_box, "cornell-box",
+                  std::numeric_limits<int>::max())
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(3.0);
+// As in against_embree.sh: what its race would take if all but the rays took no time.
+BENCHMARK_CAPTURE(trace_against_rays_alone, embree_cornell,
+                  QUARTET_BENCH_SCENES "/embree-cornell.xml", 9)
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(3.0);
 
 /// Passes through the sample store with one thread and with two, in turn.
 void two_threads_against_one(benchmark::State& state) {
