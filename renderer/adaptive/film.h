@@ -71,6 +71,13 @@ class Film {
     means_[1][pixel] = mean.y;
     means_[2][pixel] = mean.z;
   }
+  /// Fetches what put() writes for a pixel and its neighbours to the right into the cache.
+  void prefetch(std::size_t pixel) const {
+    __builtin_prefetch(counts_.data() + pixel, 1);
+    for (const std::vector<float>& plane : means_) {
+      __builtin_prefetch(plane.data() + pixel, 1);
+    }
+  }
   /// Counts the samples that were left out of a mean given by put(); returns how many of these.
   std::uint32_t reject(std::size_t pixel, std::span<const glm::vec3> samples);
 

@@ -38,9 +38,9 @@ bool looks_up(const Film& film, const SampleStore& store) {
 
 /// Reads the means of all samples taken, one tile after the other as they lie in memory.
 void look_up(Film& film, const FrameSamples& frame, int tile_row) {
-  // Asked for this many tiles ahead, means have come when they are wanted; else a replay does
-  // little but wait for memory. Into the second-level cache, which waits for more lines at a time
-  // than the first does.
+  // Asked for this many tiles ahead, means have come when they are wanted, and so have the places
+  // that they go to; else a replay does little but wait for memory. Into the second-level cache,
+  // which waits for more lines at a time than the first does.
   constexpr int ahead = 4;
   constexpr int second_level = 2;
   constexpr int side = SampleStore::tile_size;
@@ -51,7 +51,9 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row) {
     if (column + ahead < store.tile_columns()) {
       const SampleStore::TileMeans tile = store.tile_means(column + ahead, tile_row);
       for (int y = 0; y < tile.rows; ++y) {
-        const std::uint32_t* n = taken + std::size_t(tile.top + y) * width + std::size_t(tile.left);
+        const std::size_t first = std::size_t(tile.top + y) * width + std::size_t(tile.left);
+        const std::uint32_t* n = taken + first;
+        film.prefetch(first);
         for (int x = 0; x < tile.columns; ++x) {
           __builtin_prefetch(tile.of(n[x]) + std::ptrdiff_t(y) * side + x, 0, second_level);
         }
