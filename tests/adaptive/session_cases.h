@@ -4,11 +4,11 @@
 
 #include <chrono>
 #include <memory>
-#include <thread>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/adaptive/session.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/wait_until.h"
 
 namespace quartet::test {
 
@@ -17,8 +17,6 @@ using Clock = std::chrono::steady_clock;
 inline constexpr int width = 48;
 inline constexpr int height = 27;
 inline constexpr std::uint32_t frames = 8;
-// Far beyond what anything takes, even under a sanitizer on a busy machine: a deadlock fails.
-inline constexpr auto patience = std::chrono::seconds(120);
 
 inline std::shared_ptr<const TraceScene> cornell_checker() {
   static const auto scene =
@@ -49,15 +47,12 @@ inline std::shared_ptr<const RadianceImage> grey_reference(float radiance) {
 /// What answers the request with this number, at this frame; null if nothing does.
 inline std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
                                                 std::uint32_t frame) {
-  const auto end = Clock::now() + patience;
-  while (Clock::now() < end) {
-    auto snapshot = session.latest();
-    if (snapshot && snapshot->request >= number && snapshot->frame == frame) {
-      return snapshot;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return nullptr;
+  std::shared_ptr<const Snapshot> snapshot;
+  const bool answered = wait_until([&] {
+    snapshot = session.latest();
+    return snapshot && snapshot->request >= number && snapshot->frame == frame;
+  });
+  return answered ? snapshot : nullptr;
 }
 
 inline std::shared_ptr<const Snapshot> answer(Session& session, const LabRequest& request) {

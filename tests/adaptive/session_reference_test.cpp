@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "renderer/measure/metrics.h"
 #include "tests/adaptive/session_cases.h"
 
@@ -132,10 +135,7 @@ TEST(SessionThreads, AReferenceOfAnotherSizeIsRefused) {
   LabRequest request = four_lanes();
   request.reference = picture_of(0.5f, width + 1, height);
   session.submit(request);
-  const auto end = Clock::now() + patience;
-  while (session.status().error.empty() && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_EQ(session.status().error, "the reference has 49 × 27 pixels, the pictures 48 × 27");
   request.reference = picture_of(0.5f);
   expect_errors(session, request);
@@ -150,11 +150,8 @@ TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
     policy.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);
-  const auto end = Clock::now() + patience;
-  while (Clock::now() < end &&
-         (!session.latest() || session.latest()->frame < 2 || session.busy())) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(wait_until(
+      [&] { return session.latest() && session.latest()->frame >= 2 && !session.busy(); }));
   EXPECT_FALSE(session.busy());
   EXPECT_GE(session.latest()->frame, 2u);
 }

@@ -94,10 +94,7 @@ TEST(SessionThreads, AnOracleWithoutAReferenceIsAnError) {
   LabRequest request = four_lanes();
   request.policies[1] = default_policy(EstimatorId::oracle);
   session.submit(request);
-  const auto end = Clock::now() + patience;
-  while (session.status().error.empty() && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_NE(session.status().error.find("oracle"), std::string::npos) << session.status().error;
   // And the session goes on.
   request.reference = grey_reference(0.3f);
@@ -109,10 +106,8 @@ std::uint64_t stored_samples(const Session& session) {
 }
 
 void wait_until_idle(const Session& session) {
-  const auto end = Clock::now() + patience;
-  while (session.status().activity != SessionStatus::Activity::idle && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(
+      wait_until([&] { return session.status().activity == SessionStatus::Activity::idle; }));
 }
 
 TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
@@ -173,11 +168,11 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
     policy.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);
-  auto snapshot = session.latest();
-  const auto end = Clock::now() + patience;
-  while (Clock::now() < end && (!snapshot || snapshot->frame < 2)) {
+  std::shared_ptr<const Snapshot> snapshot;
+  EXPECT_TRUE(wait_until([&] {
     snapshot = session.latest();
-  }
+    return snapshot && snapshot->frame >= 2;
+  }));
   wait_until_idle(session);
   ASSERT_EQ(session.status().activity, SessionStatus::Activity::idle);
   snapshot = session.latest();
@@ -211,19 +206,14 @@ TEST(SessionThreads, AnErrorIsReportedAndTheSessionLivesOn) {
   // More pixels than there are addresses for.
   impossible.settings.width = impossible.settings.height = 1 << 30;
   session.submit(impossible);
-  const auto end = Clock::now() + patience;
-  while (session.status().error.empty() && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_FALSE(session.status().error.empty());
   EXPECT_EQ(session.latest(), before);
 
   LabRequest without_lanes = request;
   without_lanes.policies.clear();
   session.submit(without_lanes);
-  while (session.status().error != "no lane to render" && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(wait_until([&] { return session.status().error == "no lane to render"; }));
   EXPECT_EQ(session.status().error, "no lane to render");
 
   expect_as_headless(session, request);
@@ -257,11 +247,8 @@ TEST(SessionThreads, ClosingEndsTheFrameUnderWay) {
   });
   asked = session.get();
   session->submit(long_frame());
-  const auto end = Clock::now() + patience;
-  while (session->status().activity != SessionStatus::Activity::tracing && Clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ASSERT_EQ(session->status().activity, SessionStatus::Activity::tracing);
+  ASSERT_TRUE(
+      wait_until([&] { return session->status().activity == SessionStatus::Activity::tracing; }));
   ASSERT_FALSE(session->latest()) << "the frame was over before it could be ended";
   session.reset();
   EXPECT_FALSE(shown) << "the frame was traced to its end";

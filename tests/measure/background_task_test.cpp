@@ -4,26 +4,17 @@
 
 #include <atomic>
 #include <chrono>
+#include <thread>
 #include <vector>
+
+#include "tests/wait_until.h"
 
 namespace quartet {
 namespace {
 
 using std::chrono::milliseconds;
+using test::wait_until;
 using Task = BackgroundTask<int, int>;
-
-template <class Condition>
-bool wait_for(Condition condition) {
-  // Far beyond what anything takes, even under a sanitizer on a busy machine: a deadlock fails.
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(milliseconds(1));
-  }
-  return true;
-}
 
 TEST(BackgroundTaskThreads, AnswersWhatItIsAsked) {
   std::atomic<int> notified = 0;
@@ -37,10 +28,10 @@ TEST(BackgroundTaskThreads, AnswersWhatItIsAsked) {
   for (int input = 1; input <= 3; ++input) {
     const std::uint64_t number = task.submit(input);
     EXPECT_EQ(number, std::uint64_t(input));
-    ASSERT_TRUE(wait_for(
+    ASSERT_TRUE(wait_until(
         [&] { return task.latest()->input == number && task.latest()->output == 100 * input; }));
   }
-  ASSERT_TRUE(wait_for([&] { return notified == 6; }));
+  ASSERT_TRUE(wait_until([&] { return notified == 6; }));
 }
 
 TEST(BackgroundTaskThreads, TheNewestInputStopsTheOneUnderWayAndIsAnswered) {
@@ -55,12 +46,12 @@ TEST(BackgroundTaskThreads, TheNewestInputStopsTheOneUnderWayAndIsAnswered) {
     }
   });
   task.submit(0);
-  ASSERT_TRUE(wait_for([&] { return begun == 1; }));
+  ASSERT_TRUE(wait_until([&] { return begun == 1; }));
   std::uint64_t last = 0;
   for (int i = 1; i <= 1000; ++i) {
     last = task.submit(i);
   }
-  ASSERT_TRUE(wait_for([&] { return task.latest()->input == last; }));
+  ASSERT_TRUE(wait_until([&] { return task.latest()->input == last; }));
   EXPECT_EQ(task.latest()->output, 1000);
 }
 

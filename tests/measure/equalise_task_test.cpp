@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <thread>
 
 #include "tests/adaptive/session_cases.h"
 
@@ -31,16 +32,13 @@ CommonBudget spp_budget(double spp) {
 
 EqualiseStatus answer(EqualiseTask& task, const EqualiseRequest& request) {
   const std::uint64_t number = task.submit(request);
-  const auto end = Clock::now() + patience;
-  while (Clock::now() < end) {
-    const auto latest = task.latest();
-    if (latest->input == number && latest->output.done) {
-      return latest->output;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ADD_FAILURE() << "no answer";
-  return {};
+  auto latest = task.latest();
+  const bool answered = wait_until([&] {
+    latest = task.latest();
+    return latest->input == number && latest->output.done;
+  });
+  EXPECT_TRUE(answered) << "no answer";
+  return answered ? latest->output : EqualiseStatus{};
 }
 
 /// What the session of the window gives with these thresholds is what was asked for.

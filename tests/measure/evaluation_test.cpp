@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "renderer/image/views.h"
@@ -28,16 +27,13 @@ std::shared_ptr<const Reference> reference_of(float level) {
 
 Evaluation answer(EvaluationTask& task, const EvaluationInput& input) {
   const std::uint64_t number = task.submit(input);
-  const auto end = Clock::now() + patience;
-  while (Clock::now() < end) {
-    const auto latest = task.latest();
-    if (latest->input == number && (latest->output.complete || !input.snapshot)) {
-      return latest->output;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ADD_FAILURE() << "no answer";
-  return {};
+  auto latest = task.latest();
+  const bool answered = wait_until([&] {
+    latest = task.latest();
+    return latest->input == number && (latest->output.complete || !input.snapshot);
+  });
+  EXPECT_TRUE(answered) << "no answer";
+  return answered ? latest->output : Evaluation{};
 }
 
 TEST(EvaluationThreads, KnowsEveryMetricOfEveryLane) {

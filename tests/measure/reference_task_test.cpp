@@ -3,17 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <fstream>
 
 #include "renderer/measure/reference_cache.h"
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/image/temp_folder.h"
+#include "tests/wait_until.h"
 
 namespace quartet {
 namespace {
 
+using test::wait_until;
 using Activity = ReferenceStatus::Activity;
 
 std::shared_ptr<const TraceScene> scene() {
@@ -40,18 +41,13 @@ RadianceImage rendered(std::uint32_t spp) {
 /// What the task says in the end.
 ReferenceStatus answer(ReferenceTask& task, ReferenceRequest request) {
   const std::uint64_t number = task.submit(std::move(request));
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  for (;;) {
-    const auto latest = task.latest();
-    if (latest->input == number && latest->output.activity == Activity::idle) {
-      return latest->output;
-    }
-    if (std::chrono::steady_clock::now() > end) {
-      ADD_FAILURE() << "no answer";
-      return {};
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  auto latest = task.latest();
+  const bool answered = wait_until([&] {
+    latest = task.latest();
+    return latest->input == number && latest->output.activity == Activity::idle;
+  });
+  EXPECT_TRUE(answered) << "no answer";
+  return answered ? latest->output : ReferenceStatus{};
 }
 
 bool never() {
@@ -141,17 +137,12 @@ TEST(ReferenceTaskThreads, WaitsWhileSomebodyIsBusyAndStopsWhenAsked) {
   std::atomic<bool> busy = true;
   ReferenceTask task(reference_work({}, [&] { return busy.load(); }));
   task.submit(request_for(1u << 20));
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (!task.latest()->output.waits && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(wait_until([&] { return task.latest()->output.waits; }));
   EXPECT_TRUE(task.latest()->output.waits);
   EXPECT_EQ(task.latest()->output.spp, 0u);
   busy = false;
-  while (!task.latest()->output.reference && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  ASSERT_TRUE(task.latest()->output.reference) << "the first ones are shown long before the end";
+  ASSERT_TRUE(wait_until([&] { return task.latest()->output.reference != nullptr; }))
+      << "the first ones are shown long before the end";
   const ReferenceStatus stopped = answer(task, request_for(0));
   ASSERT_TRUE(stopped.reference);
   EXPECT_GE(stopped.reference->spp, 32u);
