@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <x86intrin.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <numeric>
@@ -237,14 +239,13 @@ TEST(SampleStore, ASourceThatThrowsLeavesTheStoreUsable) {
 }
 
 TEST(SampleStore, SharesTheTimeOfAPassAmongItsPixels) {
-  // Two pixels, one of which takes about a hundred times longer a sample.
+  // Two pixels, one of which takes a hundred times longer a sample.
   SampleStore store(2, 1, plenty);
-  const SampleSource slow = [](int x, int, std::uint32_t, std::span<glm::vec3> radiance) {
-    volatile double sink = 0.0;
-    for (std::size_t i = 0; i < radiance.size() * (x ? 200000 : 2000); ++i) {
-      sink = sink + 1.0;
+  const SampleSource slow = [](std::span<SampleJob> jobs) {
+    for (SampleJob& job : jobs) {
+      std::fill(job.radiance.begin(), job.radiance.end(), glm::vec3(1.0f));
+      job.work = double(job.radiance.size()) * (job.x ? 100.0 : 1.0);
     }
-    std::fill(radiance.begin(), radiance.end(), glm::vec3(float(sink)));
   };
   ASSERT_TRUE(store.require(Counts{0, 0}, Counts{3, 7}, slow));
   ASSERT_TRUE(store.require(Counts{0, 0}, Counts{9, 8}, slow));
@@ -253,6 +254,26 @@ TEST(SampleStore, SharesTheTimeOfAPassAmongItsPixels) {
   EXPECT_NEAR(double(seconds[0]) * 9 + double(seconds[1]) * 8, store.seconds(),
               1e-4 * store.seconds());
   EXPECT_GT(seconds[1], seconds[0]);
+}
+
+TEST(SampleSource, OnePixelAfterTheOtherIsTimed) {
+  std::array<double, 2> inside{};
+  const SampleSource source = [&](int x, int, std::uint32_t, std::span<glm::vec3>) {
+    const std::uint64_t before = __rdtsc();
+    volatile double sink = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+      sink = sink + 1.0;
+    }
+    inside[std::size_t(x)] = double(__rdtsc() - before);
+  };
+  std::array<glm::vec3, 3> radiance;
+  std::array jobs{SampleJob{0, 0, 0, std::span(radiance).first(1)},
+                  SampleJob{1, 0, 0, std::span(radiance).last(2)}};
+  source(jobs);
+  // Whatever else the machine did meanwhile only adds to it.
+  EXPECT_GE(jobs[0].work, inside[0]);
+  EXPECT_GE(jobs[1].work, inside[1]);
+  EXPECT_GT(std::min(inside[0], inside[1]), 100.0) << "more than a count of samples";
 }
 
 TEST(SampleStoreThreads, StoppingAPassKeepsWhatIsDone) {
