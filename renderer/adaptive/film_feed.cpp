@@ -11,13 +11,17 @@ namespace {
 // Pixels handed to one thread at a time; a smaller piece costs more to hand out than it gains.
 constexpr std::size_t grain_pixels = 1 << 12;
 
+/// The first pixel of a row of a tile.
+std::size_t first_pixel(const Film& film, const SampleStore::TileMeans& tile, int row) {
+  return std::size_t(tile.top + row) * std::size_t(film.width()) + std::size_t(tile.left);
+}
+
 /// Looks up a tile of which some sample was rejected: the newly taken ones must be looked at.
 void look_up_with_rejected(Film& film, const FrameSamples& frame,
                            const SampleStore::TileMeans& tile) {
   std::vector<glm::vec3> samples;
   for (int y = 0; y < tile.rows; ++y) {
-    const std::size_t first =
-        std::size_t(tile.top + y) * std::size_t(film.width()) + std::size_t(tile.left);
+    const std::size_t first = first_pixel(film, tile, y);
     for (int x = 0; x < tile.columns; ++x) {
       const std::size_t pixel = first + std::size_t(x);
       const std::uint32_t taken = frame.taken[pixel];
@@ -45,13 +49,12 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row) {
   constexpr int second_level = 2;
   constexpr int side = SampleStore::tile_size;
   const SampleStore& store = frame.store;
-  const std::size_t width = std::size_t(film.width());
   const std::uint32_t* taken = frame.taken.data();
   for (int column = -ahead; column < store.tile_columns(); ++column) {
     if (column + ahead < store.tile_columns()) {
       const SampleStore::TileMeans tile = store.tile_means(column + ahead, tile_row);
       for (int y = 0; y < tile.rows; ++y) {
-        const std::size_t first = std::size_t(tile.top + y) * width + std::size_t(tile.left);
+        const std::size_t first = first_pixel(film, tile, y);
         const std::uint32_t* n = taken + first;
         film.prefetch(first);
         for (int x = 0; x < tile.columns; ++x) {
@@ -68,7 +71,7 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row) {
       continue;
     }
     for (int y = 0; y < tile.rows; ++y) {
-      const std::size_t first = std::size_t(tile.top + y) * width + std::size_t(tile.left);
+      const std::size_t first = first_pixel(film, tile, y);
       for (int x = 0; x < tile.columns; ++x) {
         const std::size_t pixel = first + std::size_t(x);
         film.put(pixel, taken[pixel], tile.of(taken[pixel])[y * side + x]);

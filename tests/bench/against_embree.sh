@@ -28,8 +28,8 @@ theirs=0 ours=0
 for ((i = 0; i < runs; ++i)); do
   a=$(seconds pathtracer -c "$models/cornell_box.ecs" --max-path-length $depth --size $size $size \
     --spp $spp -o "$out/embree.ppm")
-  b=$(seconds "$program" render "$here/embree-cornell.xml" --max-depth $((depth + 1)) \
-    --size ${size}x${size} --spp $spp -o "$out/quartet.exr")
+  b=$(seconds "$program" render "$here/embree-cornell.xml" --size ${size}x${size} --spp $spp \
+    -o "$out/quartet.exr")
   printf 'embree %6.2f s   quartet %6.2f s   ratio %.2f\n' "$a" "$b" "$(awk "BEGIN { print $b / $a }")"
   theirs=$(awk "BEGIN { print $theirs + $a }") ours=$(awk "BEGIN { print $ours + $b }")
 done

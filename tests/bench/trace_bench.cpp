@@ -9,7 +9,6 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <limits>
 #include <vector>
 
 #include "renderer/trace/path.h"
@@ -81,9 +80,8 @@ void retrace(RTCScene scene, const Recorder& recorder) {
 }
 
 /// One thread: tracing and retracing in turn, so that both see the same machine.
-void trace_against_rays_alone(benchmark::State& state, const char* scene, int max_depth) {
-  BenchScene bench(scene, size, size);
-  bench.settings.max_depth = max_depth;
+void trace_against_rays_alone(benchmark::State& state, const char* scene) {
+  const BenchScene bench(scene, size, size);
   const SampleSource source = sample_source(bench.scene, bench.settings);
   // In batches of the sample store's size.
   constexpr int rows = 4;
@@ -115,13 +113,12 @@ void trace_against_rays_alone(benchmark::State& state, const char* scene, int ma
   state.counters["limit_Mrays/s"] = rays / retracing * 1e-6;
   state.counters["of_limit"] = retracing / tracing;
 }
-BENCHMARK_CAPTURE(trace_against_rays_alone, cornell_box, "cornell-box",
-                  std::numeric_limits<int>::max())
+BENCHMARK_CAPTURE(trace_against_rays_alone, cornell_box, "cornell-box")
     ->Unit(benchmark::kMillisecond)
     ->MinTime(3.0);
-// As in against_embree.sh: what its race would take if all but the rays took no time.
+// The scene of against_embree.sh: what its race would take if all but the rays took no time.
 BENCHMARK_CAPTURE(trace_against_rays_alone, embree_cornell,
-                  QUARTET_BENCH_SCENES "/embree-cornell.xml", 9)
+                  QUARTET_BENCH_SCENES "/embree-cornell.xml")
     ->Unit(benchmark::kMillisecond)
     ->MinTime(3.0);
 

@@ -170,10 +170,10 @@ void expect_reduced(LabHand& hand, const std::string& slot, const DisplayImage& 
   const glm::ivec2 size(glm::round(place.scale * glm::vec2(view.width(), view.height())));
   const DisplayImage small = reduce(view, size.x, size.y);
   const DisplayImage screen = hand.screen();
-  // Below the controls, which lie on the picture.
   const int left = std::max(int(from_x), corner.x);
   const int right = std::min(int(to_x), corner.x + size.x);
   int compared = 0;
+  // Below the controls, which lie on the picture.
   for (int y = std::max(int(box.y) + 70, corner.y);
        y < std::min(int(box.bottom()), corner.y + size.y); ++y) {
     for (int x = left; x < right; ++x) {
