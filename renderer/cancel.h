@@ -1,0 +1,21 @@
+#pragma once
+
+#include <stdexcept>
+#include <stop_token>
+
+namespace quartet {
+
+/// Work that was asked to end before it was done: no error, and nothing to tell.
+struct Cancelled : std::runtime_error {
+  Cancelled() : std::runtime_error("cancelled") {}
+};
+
+/// Throws Cancelled once a stop is asked for. Readers of files call it often enough that closing a
+/// window waits for none of them: every few milliseconds of work.
+inline void check_cancelled(const std::stop_token& stop) {
+  if (stop.stop_requested()) {
+    throw Cancelled();
+  }
+}
+
+}  // namespace quartet
