@@ -27,7 +27,7 @@ struct CompareOptions {
   bool json = false;
 };
 
-struct Comparison {
+struct CompareResult {
   RadianceImage test;
   std::shared_ptr<const Reference> reference;
   std::optional<double> seconds;  ///< that the test took, if its header says so
@@ -46,10 +46,10 @@ std::optional<double> seconds_of(const ExrImage& exr) {
              : std::nullopt;
 }
 
-Comparison load(const CompareOptions& options) {
+CompareResult load(const CompareOptions& options) {
   const ExrImage exr = read_exr(options.test);
-  Comparison comparison{radiance_of(exr, options.test), load_reference(options.reference),
-                        seconds_of(exr)};
+  CompareResult comparison{radiance_of(exr, options.test), load_reference(options.reference),
+                           seconds_of(exr)};
   try {
     require_finite(comparison.test, options.test);
   } catch (const std::invalid_argument& error) {
@@ -83,7 +83,7 @@ ordered_json rgb(glm::dvec3 c) {
   return ordered_json::array({c.r, c.g, c.b});
 }
 
-ordered_json record_of(const CompareOptions& options, const Comparison& comparison) {
+ordered_json record_of(const CompareOptions& options, const CompareResult& comparison) {
   const Reference& reference = *comparison.reference;
   ordered_json json;
   json["test"] = options.test;
@@ -104,7 +104,7 @@ ordered_json record_of(const CompareOptions& options, const Comparison& comparis
   return json;
 }
 
-void print_table(const CompareOptions& options, const Comparison& comparison) {
+void print_table(const CompareOptions& options, const CompareResult& comparison) {
   const Reference& reference = *comparison.reference;
   fmt::print("{} against {}, {}x{}\n", options.test, options.reference, comparison.test.width(),
              comparison.test.height());
@@ -142,7 +142,7 @@ void run_compare(const CompareOptions& options, const Program& program) {
   if (!picture.empty() && picture.extension() != ".png") {
     throw UsageError(fmt::format("--picture: '{}' is no .png", options.picture));
   }
-  const Comparison comparison = load(options);
+  const CompareResult comparison = load(options);
   if (!picture.empty()) {
     StagedFiles files(picture.parent_path());
     const Figure figure = error_figure(

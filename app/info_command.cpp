@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/run_options.h"
 #include "app/scene_text.h"
+#include "app/vector_json.h"
 #include "renderer/scene/mesh.h"
 #include "renderer/scene/synthetic.h"
 #include "renderer/trace/color_at.h"
@@ -123,10 +124,6 @@ void print_text(const Scene& scene) {
   for (const std::string& warning : scene.warnings) {
     fmt::print("  {}\n", warning);
   }
-}
-
-ordered_json vector_json(glm::vec3 v) {
-  return ordered_json::array({v.x, v.y, v.z});
 }
 
 ordered_json json_of(const Scene& scene) {

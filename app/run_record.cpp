@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/vector_json.h"
 #include "renderer/image/views.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/sample_store.h"
@@ -44,10 +45,6 @@ ordered_json policy_json(const SamplingPolicy& policy) {
   json["stochastic_rounding"] = policy.allocation.stochastic_rounding;
   json["max_spp"] = policy.max_spp;
   return json;
-}
-
-ordered_json vector_json(glm::vec3 v) {
-  return ordered_json::array({v.x, v.y, v.z});
 }
 
 ordered_json settings_json(const RenderSettings& settings) {

@@ -22,7 +22,7 @@ struct TraceOptions {
   std::uint32_t index = 0;
 };
 
-std::string numbers(glm::vec3 v) {
+std::string numbers_text(glm::vec3 v) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
 }
 
@@ -51,38 +51,38 @@ void print_vertex(const Scene& scene, std::size_t number, const PathVertex& vert
   if (vertex.surface) {
     const Surface& surface = *vertex.surface;
     fmt::print("{:>2}  {}\n", number, surface_text(scene, surface));
-    fmt::print("    position   {}, {:.6g} from the vertex before\n", numbers(surface.position),
+    fmt::print("    position   {}, {:.6g} from the vertex before\n", numbers_text(surface.position),
                vertex.distance);
-    fmt::print("    normal     {}\n", numbers(surface.normal));
+    fmt::print("    normal     {}\n", numbers_text(surface.normal));
     if (surface.shading_normal != surface.normal) {
-      fmt::print("    shading    {}\n", numbers(surface.shading_normal));
+      fmt::print("    shading    {}\n", numbers_text(surface.shading_normal));
     }
   } else {
     fmt::print("{:>2}  nothing: the environment\n", number);
   }
-  fmt::print("    throughput {}\n", numbers(vertex.throughput));
+  fmt::print("    throughput {}\n", numbers_text(vertex.throughput));
   if (vertex.emitted) {
-    fmt::print("    shines     {}, weight {:.6g}: + {}\n", numbers(vertex.emitted->radiance),
-               vertex.emitted->weight, numbers(vertex.emitted->contribution));
+    fmt::print("    shines     {}, weight {:.6g}: + {}\n", numbers_text(vertex.emitted->radiance),
+               vertex.emitted->weight, numbers_text(vertex.emitted->contribution));
   }
   if (vertex.direct) {
     const DirectLight& direct = *vertex.direct;
-    fmt::print("    light      {} towards {}\n", numbers(direct.light.radiance),
-               numbers(direct.light.direction));
+    fmt::print("    light      {} towards {}\n", numbers_text(direct.light.radiance),
+               numbers_text(direct.light.direction));
     fmt::print(
         "               {:.6g} away, density {:.6g}/sr, of the BSDF {:.6g}/sr, weight {:.6g}: + "
         "{}\n",
         direct.light.distance, direct.light.pdf, direct.bsdf.pdf, direct.weight,
-        numbers(direct.contribution));
+        numbers_text(direct.contribution));
   } else if (vertex.light_sampled) {
     fmt::print("    light      hidden\n");
   }
   if (vertex.scattered) {
     const BsdfSample& scattered = *vertex.scattered;
-    fmt::print("    goes on    {}, {}, weight {}\n", numbers(vertex.direction),
+    fmt::print("    goes on    {}, {}, weight {}\n", numbers_text(vertex.direction),
                scattered.specular ? std::string("specular")
                                   : fmt::format("density {:.6g}/sr", scattered.pdf),
-               numbers(scattered.weight));
+               numbers_text(scattered.weight));
   }
   if (vertex.survival) {
     fmt::print("    roulette   survives with probability {:.6g}\n", *vertex.survival);
@@ -121,7 +121,7 @@ void run_trace(const TraceOptions& options) {
     using Bits = std::array<std::uint32_t, 3>;
     if (std::bit_cast<Bits>(log.radiance) != std::bit_cast<Bits>(sample)) {
       throw std::logic_error(fmt::format("the renderer's sample is {}, the path above gives {}",
-                                         numbers(sample), numbers(log.radiance)));
+                                         numbers_text(sample), numbers_text(log.radiance)));
     }
   } else {
     fmt::print("drawn, not traced\n");

@@ -16,12 +16,12 @@ namespace quartet {
 
 namespace {
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Cairo = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 constexpr double kPdfLinePoints = 7.0;  // a paper's caption, at the size of the page's lines
 
-Surface owned(cairo_surface_t* surface) {
+CairoSurface owned(cairo_surface_t* surface) {
   return {surface, cairo_surface_destroy};
 }
 
@@ -65,7 +65,7 @@ void write_vector(const CairoPage& page, const std::filesystem::path& path, Crea
                   Prepare prepare) {
   const double points = kPdfLinePoints / page.line_size;
   FileWriter file(path);
-  const Surface surface =
+  const CairoSurface surface =
       owned(create(write_bytes, &file, page.width * points, page.height * points));
   prepare(surface.get());
   const Cairo cairo(cairo_create(surface.get()), cairo_destroy);
@@ -102,7 +102,7 @@ void write_page_png(const CairoPage& page, const std::filesystem::path& path) {
         "it stays within {}x{}, would be right",
         path.string(), page.width, page.height, kMaxCairoSide, kMaxCairoSide));
   }
-  const Surface surface = owned(cairo_image_surface_create(
+  const CairoSurface surface = owned(cairo_image_surface_create(
       CAIRO_FORMAT_RGB24, static_cast<int>(page.width), static_cast<int>(page.height)));
   const Cairo cairo(cairo_create(surface.get()), cairo_destroy);
   paint_page(cairo.get(), page);

@@ -9,16 +9,16 @@ namespace quartet {
 namespace {
 
 constexpr double kLine = 17.0;  // size of the text, in pixels of the PNG
-constexpr double kLineHeight = 1.35;
-constexpr double kGray = 0.35;
+constexpr double chart_line_height = 1.35;
+constexpr double chart_gray = 0.35;
 constexpr double kAreaWidth = 640.0;
 constexpr double kAreaHeight = 470.0;
 constexpr double kSampleWidth = 2.4 * kLine;
 
 /// Puts charts and texts into a layout, from the top down.
-class Builder {
+class ChartBuilder {
  public:
-  explicit Builder(const ChartFigure& figure) : figure_(figure) {
+  explicit ChartBuilder(const ChartFigure& figure) : figure_(figure) {
     const int count = std::max(1, int(figure.charts.size()));
     columns_ = std::clamp(figure.columns, 1, count);
     for (const Chart& chart : figure.charts) {
@@ -56,12 +56,12 @@ class Builder {
   static constexpr double kMargin = 1.6 * kLine;
   static constexpr double kGap = 1.6 * kLine;
 
-  static TextStyle line_style() { return {kLine, false, kGray}; }
-  static TextStyle tick_style() { return {0.9 * kLine, false, kGray}; }
+  static TextStyle line_style() { return {kLine, false, chart_gray}; }
+  static TextStyle tick_style() { return {0.9 * kLine, false, chart_gray}; }
 
   void put(const std::string& text, const TextStyle& style, double x, double y) {
     layout_.texts.push_back({text,
-                             {x, y, measure_.width(text, style), kLineHeight * style.size},
+                             {x, y, measure_.width(text, style), chart_line_height * style.size},
                              y + style.size,
                              style});
   }
@@ -70,7 +70,7 @@ class Builder {
                 int max_lines) {
     for (const std::string& line : measure_.wrap(text, style, width, max_lines)) {
       put(line, style, x, y_);
-      y_ += kLineHeight * style.size;
+      y_ += chart_line_height * style.size;
     }
   }
 
@@ -93,7 +93,7 @@ class Builder {
       add_chart(figure_.charts[i],
                 {std::round(x + tick_width_), area_top, kAreaWidth, kAreaHeight});
     }
-    y_ = area_top + kAreaHeight + 0.8 * kLine + 2 * kLineHeight * kLine;
+    y_ = area_top + kAreaHeight + 0.8 * kLine + 2 * chart_line_height * kLine;
   }
 
   void add_chart(const Chart& chart, const Rect& area) {
@@ -114,8 +114,8 @@ class Builder {
     for (const Tick& tick : chart.y.ticks) {
       placed.y_grid.push_back(tick);
       const double width = measure_.width(tick.label, tick_style());
-      const double top = placed.y(tick.value) - 0.5 * kLineHeight * tick_style().size;
-      if (top + kLineHeight * tick_style().size <= above) {
+      const double top = placed.y(tick.value) - 0.5 * chart_line_height * tick_style().size;
+      if (top + chart_line_height * tick_style().size <= above) {
         put(tick.label, tick_style(), area.x - width - 0.4 * kLine, top);
         above = top;
       }
@@ -124,7 +124,7 @@ class Builder {
     if (!label.empty()) {
       const double width = measure_.width(label[0], line_style());
       put(label[0], line_style(), area.x + (area.width - width) / 2,
-          tick_top + kLineHeight * kLine);
+          tick_top + chart_line_height * kLine);
     }
     layout_.charts.push_back(std::move(placed));
   }
@@ -148,7 +148,8 @@ class Builder {
       const int row = int(i) / columns;
       const double x = kMargin + double(int(i) % columns) * column;
       const double y = top + double(row) * 1.5 * kLine;
-      layout_.legend.push_back({entries[i].second, {x, y, kSampleWidth, kLineHeight * kLine}});
+      layout_.legend.push_back(
+          {entries[i].second, {x, y, kSampleWidth, chart_line_height * kLine}});
       const auto text = measure_.wrap(entries[i].first, line_style(), column - lead, 1);
       put(text.at(0), line_style(), x + lead, y);
       y_ = y + 1.5 * kLine;
@@ -188,7 +189,7 @@ std::vector<std::pair<std::string, LegendSample>> legend_of(const ChartFigure& f
 }
 
 ChartLayout lay_out(const ChartFigure& figure) {
-  return Builder(figure).build();
+  return ChartBuilder(figure).build();
 }
 
 }  // namespace quartet

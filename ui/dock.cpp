@@ -19,7 +19,7 @@ namespace quartet {
 namespace {
 
 constexpr float margin = 8.0f;
-constexpr float bar_height = 30.0f;
+constexpr float dock_bar_height = 30.0f;
 constexpr float least_height = 110.0f;  // bar included
 // A window lower than this at scale 1 has no room for lanes and dock at once unless asked.
 constexpr float roomy = 760.0f;
@@ -168,7 +168,7 @@ bool dock_is_open(const LabFrame& frame, const ScreenRect& area) {
 float dock_height(const LabFrame& frame, const ScreenRect& area) {
   const Ui& ui = frame.ui;
   if (!dock_is_open(frame, area)) {
-    return ui.px(bar_height);
+    return ui.px(dock_bar_height);
   }
   const float wanted = frame.state.dock.height > 0.0f
                            ? ui.px(frame.state.dock.height)
@@ -187,7 +187,7 @@ void draw_dock(LabFrame& frame, const ScreenRect& area, const ScreenRect& box) {
   list.AddRectFilled({box.x, box.y}, {box.right(), box.y + ui.px(1.0f)}, palette::line);
   ui.mark("dock.box", box);
   ScreenRect rest = box;
-  draw_bar(frame, rest.cut_top(ui.px(bar_height)), open);
+  draw_bar(frame, rest.cut_top(ui.px(dock_bar_height)), open);
   if (!open) {
     return;
   }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kMinPanelWidth = 480;   // below, small pictures are enlarged
 constexpr int kMaxEnlarged = 1920;    // but no side beyond this
-constexpr double kLineHeight = 1.35;  // of the em
-constexpr double kGray = 0.35;
+constexpr double line_height = 1.35;  // of the em
+constexpr double figure_gray = 0.35;
 
 /// The whole factor by which all panels of a figure are enlarged.
 int enlargement(const Figure& figure) {
@@ -29,9 +29,9 @@ int enlargement(const Figure& figure) {
 }
 
 /// Puts blocks of text, pictures and bars into a layout, from the top down.
-class Builder {
+class FigureBuilder {
  public:
-  explicit Builder(const Figure& figure) : figure_(figure), factor_(enlargement(figure)) {
+  explicit FigureBuilder(const Figure& figure) : figure_(figure), factor_(enlargement(figure)) {
     for (const FigurePanel& panel : figure.panels) {
       cell_width_ = std::max(cell_width_, panel.image.width() * factor_);
     }
@@ -71,7 +71,7 @@ class Builder {
 
  private:
   TextStyle title_style() const { return {1.2 * line_, true}; }
-  TextStyle line_style() const { return {line_, false, kGray}; }
+  TextStyle line_style() const { return {line_, false, figure_gray}; }
 
   bool panel_texts_fit() const {
     return std::ranges::all_of(figure_.panels, [&](const FigurePanel& panel) {
@@ -100,7 +100,7 @@ class Builder {
     const std::vector<std::string> lines = measure_.wrap(text, style, width, max_lines);
     for (const std::string& line : lines) {
       add_line(texts, line, style, x);
-      y_ += kLineHeight * style.size;
+      y_ += line_height * style.size;
     }
     return !lines.empty();
   }
@@ -108,7 +108,7 @@ class Builder {
   void add_line(std::vector<PlacedText>& texts, const std::string& line, const TextStyle& style,
                 double x) {
     texts.push_back({line,
-                     {x, y_, measure_.width(line, style), kLineHeight * style.size},
+                     {x, y_, measure_.width(line, style), line_height * style.size},
                      y_ + style.size,
                      style});
   }
@@ -153,7 +153,7 @@ class Builder {
 
   /// A line with the label and what the cap's colour means, the bar, and its ticks.
   void add_bar(const ColorBar& bar, double x, double width) {
-    const TextStyle label_style{line_, false, kGray};
+    const TextStyle label_style{line_, false, figure_gray};
     const double top = y_;
     if (!bar.cap_label.empty()) {
       const double swatch = 0.75 * line_;
@@ -172,11 +172,11 @@ class Builder {
     layout_.bars.push_back({bar.scale.color_map, box});
     y_ = box.bottom();
     add_ticks(bar.scale, box);
-    y_ += (0.45 + kLineHeight) * line_;
+    y_ += (0.45 + line_height) * line_;
   }
 
   void add_ticks(const ColorScale& scale, const Rect& bar) {
-    const TextStyle style{0.9 * line_, false, kGray};
+    const TextStyle style{0.9 * line_, false, figure_gray};
     const double mark_width = std::max(1.0, std::round(line_ / 14));
     const double mark_height = 0.3 * line_;
     std::vector<Tick> ticks = scale_ticks(scale, static_cast<int>(bar.width / (7 * line_)));
@@ -200,7 +200,7 @@ class Builder {
       layout_.fills.push_back(
           {{110, 110, 110, 255}, {mark_x, bar.bottom(), mark_width, mark_height}});
       layout_.texts.push_back({tick.label,
-                               {x, bar.bottom() + 0.4 * line_, width, kLineHeight * style.size},
+                               {x, bar.bottom() + 0.4 * line_, width, line_height * style.size},
                                bar.bottom() + 0.4 * line_ + style.size,
                                style});
     }
@@ -223,7 +223,7 @@ class Builder {
 }  // namespace
 
 FigureLayout lay_out(const Figure& figure) {
-  return Builder(figure).build();
+  return FigureBuilder(figure).build();
 }
 
 }  // namespace quartet

@@ -10,11 +10,11 @@ namespace quartet {
 namespace {
 
 constexpr float gap = 6.0f;
-constexpr float margin = 8.0f;
+constexpr float lane_margin = 8.0f;
 constexpr float least_chart = 62.0f;
 constexpr float top_line = 3.0f;  // in the lane's colour
 
-constexpr std::array table{
+constexpr std::array layout_table{
     LayoutRow{LabLayout::columns, "columns", "columns"},
     LayoutRow{LabLayout::grid, "grid", "2 × 2"},
     LayoutRow{LabLayout::large, "large", "one large"},
@@ -28,7 +28,7 @@ ScreenRect rounded(const ScreenRect& box) {
 
 ScreenRect inside(const Ui& ui, ScreenRect panel) {
   panel.cut_top(ui.px(top_line));
-  return panel.inset(ui.px(margin), ui.px(margin));
+  return panel.inset(ui.px(lane_margin), ui.px(lane_margin));
 }
 
 float charts_height(const Ui& ui, std::size_t count) {
@@ -47,7 +47,7 @@ void stack_charts(const Ui& ui, ScreenRect box, ColumnLayout& layout, std::size_
 }  // namespace
 
 std::span<const LayoutRow> layouts() {
-  return table;
+  return layout_table;
 }
 
 const LayoutRow& layout_row(LabLayout key) {
@@ -113,7 +113,7 @@ ColumnLayout lay_out_large(const Ui& ui, const ScreenRect& area, const ColumnWis
   ScreenRect box = inside(ui, area);
   const float side = std::clamp(0.25f * area.width, ui.px(300.0f), ui.px(460.0f));
   ScreenRect left = box.cut_left(side);
-  box.cut_left(ui.px(margin));
+  box.cut_left(ui.px(lane_margin));
   layout.header = left.cut_top(lane_header_height(ui, left.width));
   left.cut_top(ui.px(4.0f));
   const float charts = charts_height(ui, layout.charts.size());

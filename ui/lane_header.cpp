@@ -123,14 +123,9 @@ bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) 
   return chosen;
 }
 
-/// Of a combo box that shows this label.
-float combo_width(const Ui& ui, std::string_view label) {
-  return text_width(ui.body, std::string(label)) + ui.px(20.0f) + ImGui::GetFrameHeight();
-}
-
 /// Of a combo box that holds any label of a table.
 template <class Row>
-float combo_width(const Ui& ui, std::span<const Row> table) {
+float widest_combo(const Ui& ui, std::span<const Row> table) {
   float widest = 0.0f;
   for (const Row& row : table) {
     widest = std::max(widest, combo_width(ui, row.label));
@@ -309,7 +304,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   const float gap = ui.px(8.0f);
   const float row = row_height(ui);
   const float mean_width = ui.px(76.0f);
-  const float estimator_width = combo_width(ui, estimators());
+  const float estimator_width = widest_combo(ui, estimators());
   const bool has_reference = frame.state.request.reference != nullptr;
   ScreenRect first = box.cut_top(row);
   draw_mean(frame, lane, first.right(), first.y + ui.px(3.0f));
@@ -319,8 +314,8 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
       edit_estimator(ui, lane, edited, has_reference, std::min(first.width, estimator_width));
   tooltip(ui, std::string(estimator(edited.estimator).source));
   if (is_wide(ui, box.width)) {
-    const float policy_width = combo_width(ui, allocations());
-    const float use_width = combo_width(ui, sample_uses());
+    const float policy_width = widest_combo(ui, allocations());
+    const float use_width = widest_combo(ui, sample_uses());
     first.cut_left(estimator_width + gap);
     ImGui::SetCursorScreenPos({first.x, first.y});
     changed |= edit_policy(ui, lane, edited, policy_width);

@@ -12,10 +12,10 @@
 namespace quartet {
 namespace {
 
-constexpr double margin = 24.0;
+constexpr double page_margin = 24.0;
 constexpr double cell_width = 72.0;
 constexpr double cell_height = 25.0;
-constexpr double gap = 2.0;  // between cells
+constexpr double cell_gap = 2.0;  // between cells
 constexpr double swatch = 14.0;
 constexpr double header_angle = -std::numbers::pi / 5.0;
 constexpr TextStyle title_style{20.0, true};
@@ -23,7 +23,7 @@ constexpr TextStyle panel_style{15.0, true};
 constexpr TextStyle line_style{12.5, false, 0.25};
 constexpr TextStyle label_style{13.0};
 constexpr TextStyle cell_style{12.5, true};
-constexpr double line_height = 18.0;
+constexpr double matrix_line_height = 18.0;
 
 /// Paints from the top down and keeps the place; the same code measures the height, without a
 /// painter.
@@ -36,14 +36,14 @@ class Pen {
   void skip(double height) { y_ += height; }
 
   void line(const std::string& text, const TextStyle& style, double height, double indent = 0.0) {
-    show(text, style, margin + indent, y_ + 0.75 * height);
+    show(text, style, page_margin + indent, y_ + 0.75 * height);
     y_ += height;
   }
 
   void wrapped(const std::string& text, const TextStyle& style, double indent = 0.0) {
     for (const std::string& part :
-         measure_.wrap(clean_text(text), style, width_ - 2.0 * margin - indent, 6)) {
-      line(part, style, line_height, indent);
+         measure_.wrap(clean_text(text), style, width_ - 2.0 * page_margin - indent, 6)) {
+      line(part, style, matrix_line_height, indent);
     }
   }
 
@@ -64,28 +64,28 @@ class Pen {
 
   void row(const std::string& label, const MatrixFigure::Cell* cells, std::size_t count) {
     const double baseline = y_ + 0.5 * cell_height + 4.5;
-    show(label, label_style, margin + label_width_ - 10.0 - measure_.width(label, label_style),
+    show(label, label_style, page_margin + label_width_ - 10.0 - measure_.width(label, label_style),
          baseline);
     for (std::size_t i = 0; i < count; ++i) {
-      fill(cells[i].color, left(i), y_, cell_width - gap, cell_height - gap);
+      fill(cells[i].color, left(i), y_, cell_width - cell_gap, cell_height - cell_gap);
       const double width = measure_.width(cells[i].text, cell_style);
       show(cells[i].text, {cell_style.size, cell_style.bold, 1.0},
-           left(i) + 0.5 * (cell_width - gap - width), baseline - 0.5);
+           left(i) + 0.5 * (cell_width - cell_gap - width), baseline - 0.5);
     }
     y_ += cell_height;
   }
 
   void entry(const MatrixFigure::Entry& entry) {
-    fill(entry.color, margin, y_ + 2.0, swatch, swatch);
+    fill(entry.color, page_margin, y_ + 2.0, swatch, swatch);
     const double indent = swatch + 8.0;
     const double width = measure_.width(entry.label + "  ", cell_style);
-    show(entry.label, cell_style, margin + indent, y_ + 0.75 * line_height);
+    show(entry.label, cell_style, page_margin + indent, y_ + 0.75 * matrix_line_height);
     wrapped(entry.rule, line_style, indent + width);
   }
 
  private:
   double left(std::size_t column) const {
-    return margin + label_width_ + cell_width * double(column);
+    return page_margin + label_width_ + cell_width * double(column);
   }
 
   void show(const std::string& text, const TextStyle& style, double x, double baseline) {
@@ -108,7 +108,7 @@ class Pen {
   cairo_t* cairo_;  // null: only measures
   double width_;
   double label_width_;
-  double y_ = margin;
+  double y_ = page_margin;
   TextMeasure measure_;
 };
 
@@ -136,7 +136,7 @@ double paint(const MatrixFigure& figure, cairo_t* cairo, double width, double la
   }
   pen.skip(8.0);
   pen.wrapped(figure.footer, {11.0, false, 0.45});
-  return pen.y() + margin;
+  return pen.y() + page_margin;
 }
 
 CairoPage page_of(const MatrixFigure& figure) {
@@ -149,7 +149,7 @@ CairoPage page_of(const MatrixFigure& figure) {
   const double overhang =
       figure.columns.empty() ? 0.0 : measure.width(figure.columns.back(), label_style) * 0.85;
   const double width =
-      std::max(720.0, 2.0 * margin + label_width + cell_width * double(figure.columns.size()) +
+      std::max(720.0, 2.0 * page_margin + label_width + cell_width * double(figure.columns.size()) +
                           std::max(0.0, overhang - 0.5 * cell_width));
   CairoPage page;
   page.width = std::ceil(width);

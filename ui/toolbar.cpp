@@ -16,8 +16,8 @@
 namespace quartet {
 namespace {
 
-constexpr float row_height = 32.0f;
-constexpr float margin = 8.0f;
+constexpr float toolbar_row = 32.0f;
+constexpr float toolbar_margin = 8.0f;
 
 /// One control: how wide it is, and what draws it at the cursor.
 struct Item {
@@ -26,10 +26,6 @@ struct Item {
   bool stretch = false;    ///< takes what is left of its row
   bool new_group = false;  ///< stands a little apart from the one before
 };
-
-float combo_width(const Ui& ui, const std::string& text) {
-  return text_width(ui.body, text) + ui.px(20.0f) + ImGui::GetFrameHeight();
-}
 
 void draw_integrator(LabFrame& frame, float width) {
   RenderSettings& settings = frame.state.request.settings;
@@ -276,16 +272,16 @@ Rows best_rows(const LabFrame& frame, float width) {
 
 float toolbar_height(const LabFrame& frame, float width) {
   const Ui& ui = frame.ui;
-  const auto rows = best_rows(frame, width - 2 * ui.px(margin)).starts.size();
-  return float(rows) * ui.px(row_height) + ui.px(8.0f);
+  const auto rows = best_rows(frame, width - 2 * ui.px(toolbar_margin)).starts.size();
+  return float(rows) * ui.px(toolbar_row) + ui.px(8.0f);
 }
 
 void draw_toolbar(LabFrame& frame, const ScreenRect& box) {
   const Ui& ui = frame.ui;
-  const float width = box.width - 2 * ui.px(margin);
+  const float width = box.width - 2 * ui.px(toolbar_margin);
   Rows rows = best_rows(frame, width);
   rows.starts.push_back(rows.items.size());
-  float y = box.y + ui.px(4.0f) + 0.5f * (ui.px(row_height) - ImGui::GetFrameHeight());
+  float y = box.y + ui.px(4.0f) + 0.5f * (ui.px(toolbar_row) - ImGui::GetFrameHeight());
   for (std::size_t row = 0; row + 1 < rows.starts.size(); ++row) {
     const std::size_t first = rows.starts[row];
     const std::size_t end = rows.starts[row + 1];
@@ -296,7 +292,7 @@ void draw_toolbar(LabFrame& frame, const ScreenRect& box) {
       stretches |= rows.items[i].stretch;
     }
     const float spare = stretches ? std::max(0.0f, width - needed) : 0.0f;
-    float x = box.x + ui.px(margin);
+    float x = box.x + ui.px(toolbar_margin);
     for (std::size_t i = first; i < end; ++i) {
       x += i > first ? rows.gap_before(i) : 0.0f;
       ImGui::SetCursorScreenPos({x, y});
@@ -304,7 +300,7 @@ void draw_toolbar(LabFrame& frame, const ScreenRect& box) {
       rows.items[i].draw(frame, item_width);
       x += item_width;
     }
-    y += ui.px(row_height);
+    y += ui.px(toolbar_row);
   }
 }
 

@@ -162,6 +162,10 @@ bool combo(Ui& ui, const std::string& name, const std::string& shown, float widt
   return changed;
 }
 
+float combo_width(const Ui& ui, std::string_view label) {
+  return text_width(ui.body, std::string(label)) + ui.px(20.0f) + ImGui::GetFrameHeight();
+}
+
 bool combo_row(Ui& ui, const std::string& name, const std::string& label, bool chosen,
                const std::string& tip) {
   const bool pressed = ImGui::Selectable((label + "##" + name).c_str(), chosen);

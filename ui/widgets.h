@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ui/theme.h"
@@ -35,6 +36,9 @@ bool icon_button(Ui& ui, const std::string& name, Icon icon, bool enabled = true
 /// anything.
 bool combo(Ui& ui, const std::string& name, const std::string& shown, float width,
            const std::function<bool()>& rows);
+
+/// The width of a combo box that shows this label.
+float combo_width(const Ui& ui, std::string_view label);
 
 /// A row of a combo box; returns whether it was chosen.
 bool combo_row(Ui& ui, const std::string& name, const std::string& label, bool chosen,

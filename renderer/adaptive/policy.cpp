@@ -11,7 +11,7 @@ namespace quartet {
 namespace {
 
 // Work handed to one thread at a time; a smaller piece costs more to hand out than it gains.
-constexpr std::size_t grain_rows = 32;
+constexpr std::size_t plan_grain_rows = 32;
 // A part's samples are counted in 32 bits.
 constexpr std::size_t part_pixels = 1 << 14;
 
@@ -114,7 +114,7 @@ template <class Row>
 void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan, const Row& row) {
   const auto width = std::size_t(input.width);
   std::atomic<std::uint64_t> refined = 0;
-  parallel_for(std::size_t(input.height), grain_rows, [&](std::size_t begin, std::size_t end) {
+  parallel_for(std::size_t(input.height), plan_grain_rows, [&](std::size_t begin, std::size_t end) {
     Marks marks(policy, input);
     marks.mark(int(begin) - 1);
     marks.mark(int(begin));
@@ -226,7 +226,7 @@ void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& p
   });
 }
 
-constexpr std::array table{
+constexpr std::array allocation_table{
     AllocationRow{AllocationId::vote, "vote", "vote", "the 2021 course report", plan_vote},
     AllocationRow{AllocationId::two_level, "two-level", "two-level",
                   "Mitchell 1987: 1 sample everywhere, then once 8 more", plan_two_level},
@@ -264,7 +264,7 @@ SamplingPolicy default_policy(EstimatorId estimator_id) {
 }
 
 std::span<const AllocationRow> allocations() {
-  return table;
+  return allocation_table;
 }
 
 const AllocationRow& allocation(AllocationId key) {

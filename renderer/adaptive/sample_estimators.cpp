@@ -13,7 +13,7 @@ namespace quartet {
 namespace {
 
 // Pixels handed to one thread at a time; a smaller piece costs more to hand out than it gains.
-constexpr std::size_t grain_pixels = 1 << 12;
+constexpr std::size_t grain = 1 << 12;
 
 constexpr double not_judged = std::numeric_limits<double>::infinity();
 
@@ -27,7 +27,7 @@ template <class ErrorOf>
 void each_pixel(const EstimatorInput& input, std::span<float> error, std::uint32_t fewest,
                 const ErrorOf& error_of) {
   assert(error.size() == input.film.size());
-  parallel_for(error.size(), grain_pixels, [&](std::size_t begin, std::size_t end) {
+  parallel_for(error.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t n = input.film.counts()[i];
       error[i] = to_float(n < fewest ? not_judged : error_of(i, n));

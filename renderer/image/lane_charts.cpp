@@ -9,7 +9,7 @@
 namespace quartet {
 namespace {
 
-constexpr Rgba8 text_color{200, 205, 212, 255};
+constexpr Rgba8 chart_text{200, 205, 212, 255};
 constexpr std::array<Rgba8, 3> channel_colors{Rgba8{255, 99, 99}, Rgba8{92, 214, 120},
                                               Rgba8{104, 156, 255}};
 constexpr std::array channel_names{"R", "G", "B"};
@@ -24,7 +24,7 @@ Rgba8 with_alpha(Rgba8 color, double alpha) {
 }
 
 ChartText top_right(std::string text) {
-  return {{0.985, 0.96}, Align::right, std::move(text), text_color};
+  return {{0.985, 0.96}, Align::right, std::move(text), chart_text};
 }
 
 double percent(std::uint64_t part, std::size_t pixels) {
@@ -152,7 +152,7 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
     chart.texts.push_back({{0.5, 0.55},
                            Align::center,
                            row.channels == 0 ? "no error: every pixel alike" : "no frame yet",
-                           text_color});
+                           chart_text});
     return chart;
   }
   const DecadeRange axis = decades ? *decades : error_decades(shown, thresholds);
@@ -187,7 +187,7 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
   chart.texts.push_back(top_right(
       fmt::format("{:.0f} % of pixels will be refined", percent(shown.plan.refined, pixels))));
   if (const std::string note = error_note(shown, pixels); !note.empty()) {
-    chart.texts.push_back({{0.015, 0.96}, Align::left, note, text_color});
+    chart.texts.push_back({{0.015, 0.96}, Align::left, note, chart_text});
   }
   return chart;
 }

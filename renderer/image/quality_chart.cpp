@@ -8,7 +8,7 @@
 namespace quartet {
 namespace {
 
-constexpr Rgba8 text_color{200, 205, 212, 255};
+constexpr Rgba8 note_color{200, 205, 212, 255};
 
 std::string quality_text(const LaneQuality& quality) {
   std::string text = std::isnan(quality.rank_correlation)
@@ -43,14 +43,14 @@ Chart quality_chart(const LaneQuality& quality, std::string title, Rgba8 accent)
   chart.y = log_axis(line.points.empty() ? 1e-3 : y_low, line.points.empty() ? 1.0 : y_high,
                      "true squared error", 4);
   if (line.points.empty()) {
-    chart.texts.push_back({{0.5, 0.55}, Align::center, "no estimate of the error", text_color});
+    chart.texts.push_back({{0.5, 0.55}, Align::center, "no estimate of the error", note_color});
     return chart;
   }
   Rgba8 shade = accent;
   shade.a = 38;
   chart.shades.push_back({1.0, chart.x.max, shade});
   chart.lines.push_back(std::move(line));
-  chart.texts.push_back({{0.03, 0.96}, Align::left, quality_text(quality), text_color});
+  chart.texts.push_back({{0.03, 0.96}, Align::left, quality_text(quality), note_color});
   return chart;
 }
 

@@ -212,7 +212,7 @@ View reference_view(const Snapshot& snapshot, std::size_t, const ViewSettings& s
   return view;
 }
 
-constexpr std::array table{
+constexpr std::array view_table{
     ViewRow{ViewKind::image, "image", "Image", "", false, image_view},
     ViewRow{ViewKind::heatmap, "heatmap", "Samples", "samples per pixel", true, heat_view},
     ViewRow{ViewKind::error, "error", "Error", "error / threshold", true, error_view},
@@ -232,7 +232,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const ViewRow> views() {
-  return table;
+  return view_table;
 }
 
 const ViewRow& view_row(ViewKind key) {

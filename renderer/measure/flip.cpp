@@ -85,7 +85,7 @@ struct Size {
 /// What a filter makes of the pixels i steps behind and ahead, for the weight of that distance. The
 /// last two are exactly 0 where the picture is flat; the square root that is later taken of them
 /// would make much of a rounding error.
-enum class Shape {
+enum class KernelShape {
   smooth,  ///< weight 0 times the pixel itself, plus both neighbours
   edge,    ///< what is ahead minus what is behind
   point,   ///< both neighbours less the pixel itself: weights that sum up to 0
@@ -93,28 +93,29 @@ enum class Shape {
 
 /// A filter along one axis: weights of the pixel itself and of its neighbours by distance.
 struct Kernel {
-  Shape shape;
+  KernelShape shape;
   std::vector<float> weights;
   int radius() const { return int(weights.size()) - 1; }
 };
 
-enum class Axis { x, y };
+enum class FilterAxis { x, y };
 
 /// One row of output: `at(i)` are the pixels i steps along the axis.
-template <Shape shape, class At>
+template <KernelShape shape, class At>
 void filter_row(const Kernel& kernel, int width, const At& at, float* out) {
   const float* const here = at(0);
   for (int x = 0; x < width; ++x) {
-    out[x] = shape == Shape::smooth ? kernel.weights[0] * here[x] : 0.0f;
+    out[x] = shape == KernelShape::smooth ? kernel.weights[0] * here[x] : 0.0f;
   }
   for (int i = 1; i <= kernel.radius(); ++i) {
     const float weight = kernel.weights[std::size_t(i)];
     const float* const ahead = at(i);
     const float* const behind = at(-i);
     for (int x = 0; x < width; ++x) {
-      const float value = shape == Shape::smooth ? ahead[x] + behind[x]
-                          : shape == Shape::edge ? ahead[x] - behind[x]
-                                                 : (ahead[x] - here[x]) + (behind[x] - here[x]);
+      const float value = shape == KernelShape::smooth ? ahead[x] + behind[x]
+                          : shape == KernelShape::edge
+                              ? ahead[x] - behind[x]
+                              : (ahead[x] - here[x]) + (behind[x] - here[x]);
       out[x] += weight * value;
     }
   }
@@ -123,20 +124,20 @@ void filter_row(const Kernel& kernel, int width, const At& at, float* out) {
 template <class At>
 void filter_row(const Kernel& kernel, int width, const At& at, float* out) {
   switch (kernel.shape) {
-    case Shape::smooth:
-      filter_row<Shape::smooth>(kernel, width, at, out);
+    case KernelShape::smooth:
+      filter_row<KernelShape::smooth>(kernel, width, at, out);
       break;
-    case Shape::edge:
-      filter_row<Shape::edge>(kernel, width, at, out);
+    case KernelShape::edge:
+      filter_row<KernelShape::edge>(kernel, width, at, out);
       break;
-    case Shape::point:
-      filter_row<Shape::point>(kernel, width, at, out);
+    case KernelShape::point:
+      filter_row<KernelShape::point>(kernel, width, at, out);
       break;
   }
 }
 
 /// The plane filtered along an axis; beyond its border lies the border's own colour.
-Plane filter(const Plane& in, Size size, Axis axis, const Kernel& kernel) {
+Plane filter(const Plane& in, Size size, FilterAxis axis, const Kernel& kernel) {
   Plane out(in.size());
   const int width = size.width;
   const auto row = [&](int y) {
@@ -147,7 +148,7 @@ Plane filter(const Plane& in, Size size, Axis axis, const Kernel& kernel) {
     Plane padded(std::size_t(width + 2 * radius));
     for (int y = int(begin); y < int(end); ++y) {
       float* const to = out.data() + std::size_t(y) * std::size_t(width);
-      if (axis == Axis::y) {
+      if (axis == FilterAxis::y) {
         filter_row(
             kernel, width, [&](int i) { return row(y + i); }, to);
         continue;
@@ -164,7 +165,7 @@ Plane filter(const Plane& in, Size size, Axis axis, const Kernel& kernel) {
 }
 
 Plane smooth(const Plane& in, Size size, const Kernel& kernel) {
-  return filter(filter(in, size, Axis::x, kernel), size, Axis::y, kernel);
+  return filter(filter(in, size, FilterAxis::x, kernel), size, FilterAxis::y, kernel);
 }
 
 // ---- What the eye resolves ---------------------------------------------------------------------
@@ -185,7 +186,7 @@ double sum_of(const std::vector<double>& values) {
 
 Kernel smooth_kernel(const std::vector<double>& values) {
   const double sum = sum_of(values);
-  Kernel kernel{Shape::smooth, {}};
+  Kernel kernel{KernelShape::smooth, {}};
   for (const double value : values) {
     kernel.weights.push_back(float(value / sum));
   }
@@ -251,7 +252,7 @@ FeatureKernels feature_kernels() {
     point.push_back((i * i / (sd * sd) - 1.0) * value);
     (point.back() > 0.0 ? positive : negative) += (i == 0 ? 1.0 : 2.0) * std::abs(point.back());
   }
-  FeatureKernels kernels{smooth_kernel(values), {Shape::edge, {}}, {Shape::point, {}}};
+  FeatureKernels kernels{smooth_kernel(values), {KernelShape::edge, {}}, {KernelShape::point, {}}};
   for (std::size_t i = 0; i < values.size(); ++i) {
     kernels.edge.weights.push_back(float(edge[i] / edge_sum));
     kernels.point.weights.push_back(float(point[i] / (point[i] > 0.0 ? positive : negative)));
@@ -293,13 +294,13 @@ Percept percept(const RadianceImage& image) {
     opponent[1][i] = xyz.x - xyz.y;
     opponent[2][i] = xyz.y - xyz.z;
   }
-  const Plane down = filter(opponent[0], size, Axis::y, features.gaussian);
-  const Plane across = filter(opponent[0], size, Axis::x, features.gaussian);
+  const Plane down = filter(opponent[0], size, FilterAxis::y, features.gaussian);
+  const Plane across = filter(opponent[0], size, FilterAxis::x, features.gaussian);
   Percept result;
-  result.edges = magnitude(filter(down, size, Axis::x, features.edge),
-                           filter(across, size, Axis::y, features.edge));
-  result.points = magnitude(filter(down, size, Axis::x, features.point),
-                            filter(across, size, Axis::y, features.point));
+  result.edges = magnitude(filter(down, size, FilterAxis::x, features.edge),
+                           filter(across, size, FilterAxis::y, features.edge));
+  result.points = magnitude(filter(down, size, FilterAxis::x, features.point),
+                            filter(across, size, FilterAxis::y, features.point));
 
   const Plane y = blurred(opponent[0], size, achromatic);
   const Plane x_less_y = blurred(opponent[1], size, red_green);

@@ -81,7 +81,7 @@ void require_comparable(const RadianceImage& test, const RadianceImage& referenc
 }
 
 template <Term term>
-double mean_of(const RadianceImage& test, const RadianceImage& reference) {
+double mean_over_values(const RadianceImage& test, const RadianceImage& reference) {
   require_same_size(test, reference);
   const std::span<const float> x = channels_of(test);
   const std::span<const float> r = channels_of(reference);
@@ -119,11 +119,11 @@ ScalarImage map_of(const RadianceImage& test, const RadianceImage& reference) {
 }
 
 double rmse(const RadianceImage& test, const RadianceImage& reference) {
-  return std::sqrt(mean_of<squared>(test, reference));
+  return std::sqrt(mean_over_values<squared>(test, reference));
 }
 
 double psnr(const RadianceImage& test, const RadianceImage& reference) {
-  return -10.0 * std::log10(mean_of<display_squared>(test, reference));
+  return -10.0 * std::log10(mean_over_values<display_squared>(test, reference));
 }
 
 double relmse_trimmed(const RadianceImage& test, const RadianceImage& reference) {
@@ -155,18 +155,19 @@ ScalarImage checked_flip_map(const RadianceImage& test, const RadianceImage& ref
 
 constexpr std::array kMetrics{
     Metric{MetricId::mse, "mse", "MSE", "radiance²", "mean of (x − r)²", false, true,
-           mean_of<squared>, map_of<squared>, "squared error (radiance²)"},
+           mean_over_values<squared>, map_of<squared>, "squared error (radiance²)"},
     Metric{MetricId::rmse, "rmse", "RMSE", "radiance", "√ of the mean of (x − r)²", false, false,
            rmse, map_of<squared>, "squared error (radiance²)"},
     Metric{MetricId::relmse, "relmse", "relMSE", "", "mean of (x − r)²/(r² + 0.01)", false, true,
-           mean_of<relative_squared>, map_of<relative_squared>, "(x − r)²/(r² + 0.01)"},
+           mean_over_values<relative_squared>, map_of<relative_squared>, "(x − r)²/(r² + 0.01)"},
     Metric{MetricId::relmse_trimmed, "relmse_trimmed", "relMSE, trimmed", "",
            "mean of (x − r)²/(r² + 0.01) without the largest 0.1 %; blind to lost caustics", false,
            true, relmse_trimmed, map_of<relative_squared>, "(x − r)²/(r² + 0.01)"},
     Metric{MetricId::mape, "mape", "MAPE", "", "mean of |x − r|/(|r| + 0.01)", false, false,
-           mean_of<absolute_percentage>, map_of<absolute_percentage>, "|x − r|/(|r| + 0.01)"},
+           mean_over_values<absolute_percentage>, map_of<absolute_percentage>,
+           "|x − r|/(|r| + 0.01)"},
     Metric{MetricId::smape, "smape", "SMAPE", "", "mean of 2 |x − r|/(|x| + |r| + 0.01)", false,
-           false, mean_of<symmetric_percentage>, map_of<symmetric_percentage>,
+           false, mean_over_values<symmetric_percentage>, map_of<symmetric_percentage>,
            "2 |x − r|/(|x| + |r| + 0.01)"},
     Metric{MetricId::psnr, "psnr", "PSNR", "dB",
            "10 log10(1/MSE) of sRGB values, radiance cut to [0, 1]", true, false, psnr,

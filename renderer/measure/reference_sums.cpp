@@ -157,7 +157,7 @@ std::string noise_floor_text(const Reference& reference) {
 }
 
 /// The mean of what is in the film, 0 if nothing is.
-glm::vec3 mean_of(const glm::dvec3& sum, std::uint64_t samples, std::uint64_t rejected) {
+glm::vec3 pixel_mean(const glm::dvec3& sum, std::uint64_t samples, std::uint64_t rejected) {
   return samples > rejected ? glm::vec3(sum / double(samples - rejected)) : glm::vec3(0.0f);
 }
 
@@ -176,10 +176,10 @@ Reference reference_of(const ReferenceSums& sums) {
   for (std::size_t i = 0; i < reference.image.size(); ++i) {
     const std::uint64_t rejected = std::uint64_t(first.rejected[i]) + second.rejected[i];
     reference.rejected += rejected;
-    reference.image.pixels()[i] = mean_of(first.sums[i] + second.sums[i], sums.spp, rejected);
+    reference.image.pixels()[i] = pixel_mean(first.sums[i] + second.sums[i], sums.spp, rejected);
     for (std::size_t half = 0; half < 2; ++half) {
-      reference.halves[half].pixels()[i] =
-          mean_of(sums.halves[half].sums[i], sums.samples_of(half), sums.halves[half].rejected[i]);
+      reference.halves[half].pixels()[i] = pixel_mean(
+          sums.halves[half].sums[i], sums.samples_of(half), sums.halves[half].rejected[i]);
     }
   }
   return reference;

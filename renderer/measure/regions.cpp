@@ -15,7 +15,7 @@ namespace {
 
 constexpr float square_side = 70.0f;  // of the checkerboard, from the wall's lower left corner
 
-constexpr std::array table{
+constexpr std::array region_table{
     Region{RegionId::ceiling, "ceiling", "ceiling", "white, lit by nothing directly"},
     Region{RegionId::bright_squares, "bright-squares", "back wall, bright squares",
            "without their borders"},
@@ -141,7 +141,7 @@ bool same_thing(const FirstHit& a, const FirstHit& b) {
 }  // namespace
 
 std::span<const Region> regions() {
-  return table;
+  return region_table;
 }
 
 const Region& region(RegionId key) {

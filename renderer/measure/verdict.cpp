@@ -17,7 +17,7 @@ std::string times(double ratio) {
   return fmt::format("{:.{}f} ×", ratio, ratio < 9.95 ? 1 : 0);
 }
 
-constexpr std::array table{
+constexpr std::array verdict_table{
     VerdictRow{
         "biased",
         "biased",
@@ -67,7 +67,7 @@ constexpr std::array table{
 }  // namespace
 
 std::span<const VerdictRow> verdicts() {
-  return table;
+  return verdict_table;
 }
 
 const VerdictRow& verdict(const Cell& cell) {

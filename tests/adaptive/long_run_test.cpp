@@ -27,7 +27,7 @@ std::size_t memory_in_use() {
 #endif
 }
 
-SampleSource noise(std::uint32_t seed) {
+SampleSource steady_noise(std::uint32_t seed) {
   return [seed](int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
     for (std::size_t i = 0; i < radiance.size(); ++i) {
       std::uint32_t bits =
@@ -47,9 +47,9 @@ TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandFrames) {
   LabOptions options;
   options.threads = 1;
   options.memory = 4 * mib;
-  options.pilot_source = noise(1000);
+  options.pilot_source = steady_noise(1000);
   const SamplingPolicy policies[] = {reused, unbiased};
-  Lab lab(noise(0), 4, 4, policies, options);
+  Lab lab(steady_noise(0), 4, 4, policies, options);
   std::size_t settled = 0;
   for (std::uint32_t frame = 1; frame <= 100'000; ++frame) {
     ASSERT_TRUE(lab.run_frame());

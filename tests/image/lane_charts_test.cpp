@@ -15,10 +15,10 @@ using test::blank_snapshot;
 using test::finish;
 
 constexpr Rgba8 accent{255, 160, 40};
-constexpr std::array lanes{EstimatorId::contrast, EstimatorId::kl, EstimatorId::uniform};
+constexpr std::array charted_lanes{EstimatorId::contrast, EstimatorId::kl, EstimatorId::uniform};
 
-Snapshot example() {
-  Snapshot snapshot = blank_snapshot(100, 10, lanes);
+Snapshot charted_example() {
+  Snapshot snapshot = blank_snapshot(100, 10, charted_lanes);
   for (LaneSnapshot& lane : snapshot.lanes) {
     for (std::size_t i = 0; i < lane.taken.size(); ++i) {
       lane.taken[i] = 1 + std::uint32_t(i % 40);
@@ -77,7 +77,7 @@ TEST(Chart, ReadingsBetweenPointsAreStraightOnTheAxes) {
 }
 
 TEST(SampleChart, HasABarACountInTheColoursOfTheHeatmap) {
-  Snapshot snapshot = example();
+  Snapshot snapshot = charted_example();
   snapshot.lanes[0].policy.max_spp = 40;
   const ColorScale scale{0, 40, ColorMapId::turbo};
   const Chart chart = sample_chart(snapshot, 0, scale);
@@ -93,7 +93,7 @@ TEST(SampleChart, HasABarACountInTheColoursOfTheHeatmap) {
 }
 
 TEST(ErrorChart, OneChannelHasBarsOneMarkerAndTheShareThatIsRefined) {
-  const Snapshot snapshot = example();
+  const Snapshot snapshot = charted_example();
   Thresholds thresholds{0.002f, 0.0f, 0.0f};
   const Chart chart = error_chart(snapshot, 1, thresholds, accent);
   ASSERT_EQ(chart.markers.size(), 1u);
@@ -115,7 +115,7 @@ TEST(ErrorChart, OneChannelHasBarsOneMarkerAndTheShareThatIsRefined) {
 }
 
 TEST(ErrorChart, ContrastHasALineAndAMarkerAChannel) {
-  const Snapshot snapshot = example();
+  const Snapshot snapshot = charted_example();
   const Thresholds thresholds = snapshot.lanes[0].policy.thresholds;
   const Chart chart = error_chart(snapshot, 0, thresholds, accent);
   EXPECT_TRUE(chart.bars.empty());
@@ -133,7 +133,7 @@ TEST(ErrorChart, ContrastHasALineAndAMarkerAChannel) {
 }
 
 TEST(ErrorChart, TheThresholdsAreAlwaysInsideWithRoomToDrag) {
-  const Snapshot snapshot = example();
+  const Snapshot snapshot = charted_example();
   for (float threshold = 1e-7f; threshold < 1e3f; threshold *= 1.7f) {
     const Chart chart = error_chart(snapshot, 1, {threshold, 0.0f, 0.0f}, accent);
     const double position = axis_position(chart.x, double(threshold));
@@ -143,7 +143,7 @@ TEST(ErrorChart, TheThresholdsAreAlwaysInsideWithRoomToDrag) {
 }
 
 TEST(ErrorChart, UniformSaysThatThereIsNoError) {
-  const Snapshot snapshot = example();
+  const Snapshot snapshot = charted_example();
   const Chart chart = error_chart(snapshot, 2, {}, accent);
   EXPECT_TRUE(chart.bars.empty());
   EXPECT_TRUE(chart.markers.empty());
@@ -152,7 +152,7 @@ TEST(ErrorChart, UniformSaysThatThereIsNoError) {
 }
 
 TEST(ProgressChart, CumulatesAndStaysSmall) {
-  Snapshot snapshot = example();
+  Snapshot snapshot = charted_example();
   snapshot.frame = 10000;
   for (LaneSnapshot& lane : snapshot.lanes) {
     lane.history.clear();

@@ -7,9 +7,9 @@
 namespace quartet {
 namespace {
 
-constexpr Rgba8 accent{255, 160, 40};
+constexpr Rgba8 quality_accent{255, 160, 40};
 
-LaneQuality example() {
+LaneQuality quality_example() {
   LaneQuality quality;
   quality.calibration = {{0.0, 0.5, 7}, {0.1, 1e-4, 10}, {0.5, 1e-3, 10}, {3.0, 1e-2, 10}};
   quality.rank_correlation = 0.834;
@@ -18,7 +18,7 @@ LaneQuality example() {
 }
 
 TEST(QualityChart, HasAPointAGroupAndSaysTheCorrelation) {
-  const Chart chart = quality_chart(example(), "kl", accent);
+  const Chart chart = quality_chart(quality_example(), "kl", quality_accent);
   ASSERT_EQ(chart.lines.size(), 1u);
   EXPECT_EQ(chart.lines[0].points.size(), 3u) << "an error of 0 has no place on the axis";
   for (const glm::dvec2& point : chart.lines[0].points) {
@@ -36,7 +36,7 @@ TEST(QualityChart, HasAPointAGroupAndSaysTheCorrelation) {
 TEST(QualityChart, WithoutErrorsItSaysSo) {
   LaneQuality quality;
   quality.rank_correlation = std::nan("");
-  const Chart chart = quality_chart(quality, "uniform", accent);
+  const Chart chart = quality_chart(quality, "uniform", quality_accent);
   EXPECT_TRUE(chart.lines.empty());
   ASSERT_EQ(chart.texts.size(), 1u);
 }

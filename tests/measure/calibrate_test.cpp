@@ -11,14 +11,16 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 96;
-constexpr int height = 64;
+constexpr int calibrated_width = 96;
+constexpr int calibrated_height = 64;
 
 Experiment make_experiment(int threads = 0) {
   LabOptions options;
   options.threads = threads;
-  return Experiment(test::noisy_source(width), width, height, options,
-                    std::make_shared<const RadianceImage>(test::noisy_truth(width, height)));
+  return Experiment(test::noisy_source(calibrated_width), calibrated_width, calibrated_height,
+                    options,
+                    std::make_shared<const RadianceImage>(
+                        test::noisy_truth(calibrated_width, calibrated_height)));
 }
 
 std::vector<SamplingPolicy> policies_with_thresholds() {
@@ -140,7 +142,7 @@ TEST(Calibrate, WantsExactlyOneBudget) {
   const SamplingPolicy policy = default_policy(EstimatorId::kl);
   EXPECT_NE(error_of([&] { calibrate(experiment, policy, {}); }), "");
   EXPECT_NE(error_of([&] { calibrate(experiment, policy, {.spp = 3.0, .seconds = 3.0}); }), "");
-  Experiment blind(test::noisy_source(width), width, height, {});
+  Experiment blind(test::noisy_source(calibrated_width), calibrated_width, calibrated_height, {});
   const CommonBudget error{.error = ErrorTarget{}};
   EXPECT_NE(error_of([&] { calibrate(blind, policy, error); }).find("reference"),
             std::string::npos);

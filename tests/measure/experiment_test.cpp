@@ -13,13 +13,14 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 32;
-constexpr int height = 20;
-constexpr std::size_t pixels = std::size_t(width) * height;
+constexpr int run_width = 32;
+constexpr int run_height = 20;
+constexpr std::size_t run_pixels = std::size_t(run_width) * run_height;
 
-Experiment make_experiment() {
-  return Experiment(test::noisy_source(width), width, height, {},
-                    std::make_shared<const RadianceImage>(test::noisy_truth(width, height)));
+Experiment make_run() {
+  return Experiment(
+      test::noisy_source(run_width), run_width, run_height, {},
+      std::make_shared<const RadianceImage>(test::noisy_truth(run_width, run_height)));
 }
 
 RunPlan plan_of(EstimatorId id, std::uint32_t frames) {
@@ -29,14 +30,14 @@ RunPlan plan_of(EstimatorId id, std::uint32_t frames) {
 }
 
 TEST(Experiment, ARunIsWhatALabAloneGives) {
-  Experiment experiment = make_experiment();
+  Experiment experiment = make_run();
   ASSERT_TRUE(experiment.run(plan_of(EstimatorId::uniform, 9)));
   for (const EstimatorId id : {EstimatorId::kl, EstimatorId::contrast, EstimatorId::kl}) {
     const RunPlan plan = plan_of(id, 6);
     const auto run = experiment.run(plan);
     ASSERT_TRUE(run);
     ASSERT_EQ(run->size(), 1u);
-    Lab alone(test::noisy_source(width), width, height, std::span(&plan.policy, 1));
+    Lab alone(test::noisy_source(run_width), run_width, run_height, std::span(&plan.policy, 1));
     while (alone.frame() < 6) {
       alone.run_frame();
     }
@@ -46,28 +47,28 @@ TEST(Experiment, ARunIsWhatALabAloneGives) {
     const Measurement& end = run->back();
     EXPECT_EQ(end.record.frame, 6u);
     EXPECT_EQ(end.record.samples, lane.history().back().samples);
-    EXPECT_DOUBLE_EQ(end.mean_spp, double(end.record.samples) / double(pixels));
+    EXPECT_DOUBLE_EQ(end.mean_spp, double(end.record.samples) / double(run_pixels));
     ASSERT_EQ(end.values.size(), 2u);
-    const RadianceImage truth = test::noisy_truth(width, height);
+    const RadianceImage truth = test::noisy_truth(run_width, run_height);
     EXPECT_EQ(end.values[0], metric(MetricId::mse).compute(lane.film().image(), truth));
     EXPECT_EQ(end.values[1], metric(MetricId::relmse).compute(lane.film().image(), truth));
   }
 }
 
 TEST(Experiment, TracesASampleOnceForAllRuns) {
-  Experiment experiment = make_experiment();
+  Experiment experiment = make_run();
   experiment.run(plan_of(EstimatorId::uniform, 8));
-  EXPECT_EQ(experiment.store().traced(), 8 * pixels);
-  EXPECT_EQ(experiment.samples_used(), 8 * pixels);
+  EXPECT_EQ(experiment.store().traced(), 8 * run_pixels);
+  EXPECT_EQ(experiment.samples_used(), 8 * run_pixels);
   for (int i = 1; i <= 4; ++i) {
     experiment.run(plan_of(EstimatorId::uniform, 8));
-    EXPECT_EQ(experiment.store().traced(), 8 * pixels);
-    EXPECT_EQ(experiment.samples_used(), std::uint64_t(8 + 8 * i) * pixels);
+    EXPECT_EQ(experiment.store().traced(), 8 * run_pixels);
+    EXPECT_EQ(experiment.samples_used(), std::uint64_t(8 + 8 * i) * run_pixels);
   }
 }
 
 TEST(Experiment, IsMeasuredWhereAskedAndAlwaysAtItsEnd) {
-  Experiment experiment = make_experiment();
+  Experiment experiment = make_run();
   const auto frames_of = [&](MeasureAt at) {
     RunPlan plan = plan_of(EstimatorId::uniform, 11);
     plan.measure_at = at;
@@ -84,7 +85,7 @@ TEST(Experiment, IsMeasuredWhereAskedAndAlwaysAtItsEnd) {
 }
 
 TEST(Experiment, EndsAtItsConditionsOrWhenStopped) {
-  Experiment experiment = make_experiment();
+  Experiment experiment = make_run();
   RunPlan plan = plan_of(EstimatorId::uniform, 100);
   plan.stop.spp = 7.0;
   EXPECT_EQ(experiment.run(plan)->back().record.frame, 7u);
@@ -109,7 +110,7 @@ TEST(Experiment, EndsAtItsConditionsOrWhenStopped) {
 }
 
 TEST(Experiment, RefusesWhatCannotBeMeasuredOrNeverEnds) {
-  Experiment blind(test::noisy_source(width), width, height, {});
+  Experiment blind(test::noisy_source(run_width), run_width, run_height, {});
   EXPECT_NE(error_of([&] { blind.run(plan_of(EstimatorId::kl, 3)); }).find("reference"),
             std::string::npos);
   RunPlan plan{.policy = default_policy(EstimatorId::kl), .stop = {}};
@@ -132,7 +133,7 @@ TEST(ErrorCurve, IsStraightOnLogarithmicAxesAndGoesOnWithItsSlope) {
 }
 
 TEST(ErrorCurve, OfAUniformRunFallsWithTheSlopeOfItsMetric) {
-  Experiment experiment = make_experiment();
+  Experiment experiment = make_run();
   RunPlan plan = plan_of(EstimatorId::uniform, 256);
   plan.metrics = {MetricId::mse, MetricId::rmse};
   plan.measure_at = MeasureAt::powers_of_two;

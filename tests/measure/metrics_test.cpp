@@ -23,7 +23,7 @@ double value(MetricId id, const RadianceImage& test, const RadianceImage& refere
   return metric(id).compute(test, reference);
 }
 
-RadianceImage noise(int width, int height, unsigned seed) {
+RadianceImage even_noise(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   std::exponential_distribution<float> radiance(2.0f);
   RadianceImage image(width, height);
@@ -119,7 +119,7 @@ TEST(Metrics, PsnrLooksAtWhatADisplayShows) {
 }
 
 TEST(Metrics, OfAPictureAgainstItselfSayNoError) {
-  const RadianceImage image = noise(33, 21, 1);
+  const RadianceImage image = even_noise(33, 21, 1);
   for (const Metric& row : metrics()) {
     EXPECT_EQ(row.compute(image, image),
               row.higher_is_better ? std::numeric_limits<double>::infinity() : 0.0)
@@ -129,7 +129,7 @@ TEST(Metrics, OfAPictureAgainstItselfSayNoError) {
 
 TEST(Metrics, NoiseOfMoreSamplesIsBetter) {
   const RadianceImage reference(97, 61, glm::vec3(0.5f));
-  RadianceImage noisy = noise(97, 61, 2);  // mean 0.5
+  RadianceImage noisy = even_noise(97, 61, 2);  // mean 0.5
   RadianceImage quieter = noisy;
   for (std::size_t i = 0; i < noisy.size(); ++i) {
     quieter.pixels()[i] = glm::mix(reference.pixels()[i], noisy.pixels()[i], 0.5f);
@@ -145,8 +145,8 @@ TEST(Metrics, NoiseOfMoreSamplesIsBetter) {
 }
 
 TEST(Metrics, AgreeWithTheMeanOfTheirMap) {
-  const RadianceImage test = noise(130, 77, 3);
-  const RadianceImage reference = noise(130, 77, 4);
+  const RadianceImage test = even_noise(130, 77, 3);
+  const RadianceImage reference = even_noise(130, 77, 4);
   for (const Metric& row : metrics()) {
     const ScalarImage map = row.map(test, reference);
     ASSERT_EQ(map.width(), 130);
@@ -211,8 +211,8 @@ TEST(Metrics, RefusePicturesOfDifferentSize) {
 }
 
 TEST(Metrics, DoNotDependOnTheNumberOfThreads) {
-  const RadianceImage test = noise(211, 133, 5);
-  const RadianceImage reference = noise(211, 133, 6);
+  const RadianceImage test = even_noise(211, 133, 5);
+  const RadianceImage reference = even_noise(211, 133, 6);
   for (const Metric& row : metrics()) {
     tbb::task_arena one(1);
     const double expected = one.execute([&] { return row.compute(test, reference); });

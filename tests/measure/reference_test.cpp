@@ -14,9 +14,9 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 37;  // not a multiple of a tile
-constexpr int height = 21;
-constexpr std::size_t pixels = std::size_t(width) * height;
+constexpr int odd_width = 37;  // not a multiple of a tile
+constexpr int odd_height = 21;
+constexpr std::size_t odd_pixels = std::size_t(odd_width) * odd_height;
 
 std::shared_ptr<const TraceScene> box() {
   static const auto scene =
@@ -26,8 +26,8 @@ std::shared_ptr<const TraceScene> box() {
 
 RenderSettings settings() {
   RenderSettings settings = default_settings(box()->scene());
-  settings.width = width;
-  settings.height = height;
+  settings.width = odd_width;
+  settings.height = odd_height;
   settings.max_depth = 3;
   settings.seed = reference_seed;
   return settings;
@@ -38,7 +38,7 @@ RenderSettings settings() {
 float exponential(std::uint64_t seed, int x, int y, std::uint64_t index, std::uint64_t channel) {
   std::uint64_t z = 0;
   for (const std::uint64_t part :
-       {seed, std::uint64_t(y) * width + std::uint64_t(x), index, channel}) {
+       {seed, std::uint64_t(y) * odd_width + std::uint64_t(x), index, channel}) {
     z = (z ^ part) + 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -74,9 +74,9 @@ ReferenceSums read(const std::filesystem::path& path) {
 
 /// A picture of another program.
 void write_foreign(const std::filesystem::path& path, glm::vec3 last) {
-  RadianceImage image(width, height, glm::vec3(0.25f));
-  image.at(width - 1, height - 1) = last;
-  ExrImage exr(width, height);
+  RadianceImage image(odd_width, odd_height, glm::vec3(0.25f));
+  image.at(odd_width - 1, odd_height - 1) = last;
+  ExrImage exr(odd_width, odd_height);
   exr.add_radiance(image);
   write_exr(path, exr);
 }
@@ -87,7 +87,7 @@ TEST(Reference, IsTheMeanOfAllSamplesOfBothSources) {
   const auto reference = render.reference();
   EXPECT_EQ(reference->spp, 5u);
   EXPECT_EQ(reference->rejected, 0u);
-  for (const auto& [x, y] : {std::pair{0, 0}, {width - 1, height - 1}, {16, 15}}) {
+  for (const auto& [x, y] : {std::pair{0, 0}, {odd_width - 1, odd_height - 1}, {16, 15}}) {
     std::array<glm::vec3, 3> first;
     std::array<glm::vec3, 2> second;
     noise(1)(x, y, 0, first);
@@ -115,7 +115,7 @@ TEST(Reference, RejectsCountsAndLeavesOutBadSamples) {
   render.add(8);
   const auto reference = render.reference();
   EXPECT_EQ(reference->image.at(3, 3), glm::vec3(3.0f));
-  EXPECT_EQ(reference->rejected, 4 * pixels);
+  EXPECT_EQ(reference->rejected, 4 * odd_pixels);
 }
 
 TEST(Reference, GoesOnFromAFileToTheBit) {
@@ -171,9 +171,9 @@ TEST(Reference, NoiseFloorIsTheErrorOfTheReferenceItself) {
   EXPECT_NEAR(render.reference()->noise_floor(MetricId::mse), truth, 0.15 * truth);
   const auto reference = render.reference();
   double squares = 0.0;
-  for (std::size_t i = 0; i < pixels; ++i) {
+  for (std::size_t i = 0; i < odd_pixels; ++i) {
     const glm::dvec3 d = reference->halves[0].pixels()[i] - reference->halves[1].pixels()[i];
-    squares += glm::dot(d, d) / 3.0 / double(pixels);
+    squares += glm::dot(d, d) / 3.0 / double(odd_pixels);
   }
   EXPECT_NEAR(reference->noise_floor(MetricId::mse), squares / 4.0, 1e-6 * squares);
   EXPECT_NEAR(reference->noise_floor(MetricId::rmse), std::sqrt(squares / 4.0), 1e-6);

@@ -12,22 +12,22 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 480;
-constexpr int height = 270;
+constexpr int report_width = 480;
+constexpr int report_height = 270;
 
 const std::vector<RegionId>& found() {
   static const std::vector<RegionId> regions = [] {
     const TraceScene scene(load_scene(find_scene("cornell-checker")));
     RenderSettings settings = default_settings(scene.scene());
-    settings.width = width;
-    settings.height = height;
+    settings.width = report_width;
+    settings.height = report_height;
     return find_regions(scene, settings);
   }();
   return regions;
 }
 
 RegionId at(int x, int y) {
-  return found()[std::size_t(y) * width + std::size_t(x)];
+  return found()[std::size_t(y) * report_width + std::size_t(x)];
 }
 
 /// Where a point of the scene lies in the picture: the camera of the report in the report's words.
@@ -35,19 +35,20 @@ RegionId at_point(double x, double y, double z) {
   const double scale = 3.0 / (z + 800.0);  // tan of half the vertical field of view is 1/3
   const double across = (x - 278.0) * scale;
   const double up = (y - 273.0) * scale;
-  return at(int(width / 2.0 + across * height / 2.0), int(height / 2.0 - up * height / 2.0));
+  return at(int(report_width / 2.0 + across * report_height / 2.0),
+            int(report_height / 2.0 - up * report_height / 2.0));
 }
 
 TEST(Regions, EachIsSomewhereAndPixelsAddUp) {
   for (const Region& row : regions()) {
     EXPECT_GT(std::ranges::count(found(), row.key), 20) << row.id;
   }
-  EXPECT_EQ(found().size(), std::size_t(width) * height);
+  EXPECT_EQ(found().size(), std::size_t(report_width) * report_height);
 }
 
 TEST(Regions, LieWhereTheReportsSceneHasThem) {
   EXPECT_EQ(at(3, 100), RegionId::margin);
-  EXPECT_EQ(at(width - 3, 100), RegionId::margin);
+  EXPECT_EQ(at(report_width - 3, 100), RegionId::margin);
   EXPECT_EQ(at_point(278, 548.8, 450), RegionId::ceiling);
   EXPECT_EQ(at_point(0, 300, 300), RegionId::green_wall);
   EXPECT_EQ(at_point(556, 300, 300), RegionId::red_wall);
@@ -76,8 +77,8 @@ TEST(Regions, BordersAndOutlinesAreAsTheirDefinitionsSay) {
     return id == RegionId::bright_squares || id == RegionId::dark_squares ||
            id == RegionId::bright_borders || id == RegionId::dark_borders;
   };
-  for (int y = 1; y + 1 < height; ++y) {
-    for (int x = 1; x + 1 < width; ++x) {
+  for (int y = 1; y + 1 < report_height; ++y) {
+    for (int x = 1; x + 1 < report_width; ++x) {
       const RegionId here = at(x, y);
       for (int v = y - 1; v <= y + 1; ++v) {
         for (int u = x - 1; u <= x + 1; ++u) {

@@ -11,13 +11,13 @@
 namespace quartet {
 namespace {
 
-constexpr std::size_t pixels = 100;
+constexpr std::size_t measured_pixels = 100;
 constexpr double no_error = 0.0;
 
 FrameRecord record(std::uint32_t frame, double mean_spp, double seconds) {
   FrameRecord record;
   record.frame = frame;
-  record.samples = std::uint64_t(mean_spp * double(pixels));
+  record.samples = std::uint64_t(mean_spp * double(measured_pixels));
   record.seconds = seconds;
   return record;
 }
@@ -49,17 +49,18 @@ std::uint32_t frames_until(const StopConditions& stop, const RadianceImage* refe
 
 TEST(StopConditions, EachAloneCountsItsOwn) {
   StopConditions stop = frames(8);
-  EXPECT_DOUBLE_EQ(stop.progress(record(2, 500, 500), pixels, no_error), 0.25);
-  EXPECT_DOUBLE_EQ(stop.progress(record(8, 0, 0), pixels, no_error), 1.0);
+  EXPECT_DOUBLE_EQ(stop.progress(record(2, 500, 500), measured_pixels, no_error), 0.25);
+  EXPECT_DOUBLE_EQ(stop.progress(record(8, 0, 0), measured_pixels, no_error), 1.0);
   stop = {};
   stop.spp = 24.0;
-  EXPECT_DOUBLE_EQ(stop.progress(record(1000, 6, 500), pixels, no_error), 0.25);
+  EXPECT_DOUBLE_EQ(stop.progress(record(1000, 6, 500), measured_pixels, no_error), 0.25);
   stop = {};
   stop.seconds = 0.5;
-  EXPECT_DOUBLE_EQ(stop.progress(record(1000, 500, 0.4), pixels, no_error), 0.8);
+  EXPECT_DOUBLE_EQ(stop.progress(record(1000, 500, 0.4), measured_pixels, no_error), 0.8);
   stop = {};
   EXPECT_FALSE(stop.any());
-  EXPECT_EQ(stop.progress(record(1000, 500, 500), pixels, no_error), 0.0) << "without an end";
+  EXPECT_EQ(stop.progress(record(1000, 500, 500), measured_pixels, no_error), 0.0)
+      << "without an end";
 }
 
 TEST(StopConditions, OfSeveralTheNearestCounts) {
@@ -67,11 +68,11 @@ TEST(StopConditions, OfSeveralTheNearestCounts) {
   stop.spp = 100.0;
   stop.seconds = 1.0;
   stop.error = ErrorTarget{MetricId::mse, 0.01};
-  EXPECT_DOUBLE_EQ(stop.progress(record(5, 20, 0.3), pixels, 0.04), 0.5);
-  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.3), pixels, 0.04), 0.7);
-  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), pixels, 0.04), 0.8);
-  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), pixels, 0.0125), 0.8);
-  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), pixels, 0.01), 1.0);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 20, 0.3), measured_pixels, 0.04), 0.5);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.3), measured_pixels, 0.04), 0.7);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), measured_pixels, 0.04), 0.8);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), measured_pixels, 0.0125), 0.8);
+  EXPECT_DOUBLE_EQ(stop.progress(record(5, 70, 0.8), measured_pixels, 0.01), 1.0);
 }
 
 // A quarter of the error of mse takes 4 times the samples, of rmse 16 times, and 6.02 dB twice.
@@ -125,7 +126,7 @@ void expect_end(std::uint32_t frame, const StopConditions& stop, const LaneSnaps
 
 TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   LaneSnapshot lane;
-  lane.taken.assign(pixels, 12);
+  lane.taken.assign(measured_pixels, 12);
   lane.plan.total = 40;
   for (std::uint32_t frame = 1; frame <= 12; ++frame) {
     lane.history.push_back(record(frame, 2.0 * frame, 0.1 * frame));

@@ -14,19 +14,20 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 48;
-constexpr int height = 32;
+constexpr int swept_width = 48;
+constexpr int swept_height = 32;
 
 SampleWorld noisy_world() {
   SampleWorld world;
-  world.width = width;
-  world.height = height;
+  world.width = swept_width;
+  world.height = swept_height;
   world.first_seed = 5;
-  world.reference = std::make_shared<const RadianceImage>(test::noisy_truth(width, height));
+  world.reference =
+      std::make_shared<const RadianceImage>(test::noisy_truth(swept_width, swept_height));
   world.source = [](std::uint64_t seed) -> SampleSource {
     // Seeds are far apart in one endless row of samples.
-    return [seed, source = test::noisy_source(width)](int x, int y, std::uint32_t first,
-                                                      std::span<glm::vec3> radiance) {
+    return [seed, source = test::noisy_source(swept_width)](int x, int y, std::uint32_t first,
+                                                            std::span<glm::vec3> radiance) {
       source(x, y, first + std::uint32_t(seed) * 100'000u, radiance);
     };
   };
@@ -88,7 +89,7 @@ TEST(Sweep, HasEveryPolicyFactorAndSeedOnce) {
 TEST(Sweep, ARunIsThatOfALabAlone) {
   const SweepRun& run = small_result().runs[10];
   const SampleWorld world = noisy_world();
-  Experiment alone(world.source(run.seed), width, height, {}, world.reference);
+  Experiment alone(world.source(run.seed), swept_width, swept_height, {}, world.reference);
   const auto end =
       alone.run({.policy = run.policy, .stop = small_plan().stop, .metrics = small_plan().metrics})
           ->back();

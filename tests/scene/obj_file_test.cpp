@@ -4,7 +4,7 @@ namespace quartet::test {
 namespace {
 
 constexpr std::string_view quad = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\n";
-constexpr std::string_view light = R"(<emitter type="area"/>)";
+constexpr std::string_view mesh_light = R"(<emitter type="area"/>)";
 
 struct Loaded {
   TemporaryFolder folder;
@@ -153,7 +153,7 @@ TEST(Obj, Errors) {
                  "a face uses vertex 9, the file has 3");
   expect_message(loaded.error("v 0 0 0\nv 1 0 0\nv 1 1 0\n"), 2,
                  "mesh mesh.obj has no triangles with an area");
-  expect_message(loaded.error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", light), 2,
+  expect_message(loaded.error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", mesh_light), 2,
                  "no triangles with an area");
   expect_message(loaded.error("v 0 0 0\nv 1e20 0 0\nv 1 1 0\nf 1 2 3\n",
                               R"(<transform name="to_world"><scale x="1e20"/></transform>)"),

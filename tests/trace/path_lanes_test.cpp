@@ -39,15 +39,15 @@ Reference single_path(const TraceScene& scene, const RenderSettings& settings,
 }
 
 /// The samples of a picture, in calls of so many pixels; of pixel p, `first` and the p % 4 after.
-struct Picture {
+struct TracedPicture {
   std::vector<std::vector<glm::vec3>> radiance;
   std::vector<double> work;
 };
 
-Picture render(const TraceScene& scene, const RenderSettings& settings, std::size_t pixels_a_call,
-               std::uint32_t first) {
+TracedPicture render(const TraceScene& scene, const RenderSettings& settings,
+                     std::size_t pixels_a_call, std::uint32_t first) {
   const CameraRays camera(settings.camera, settings.width, settings.height);
-  Picture picture;
+  TracedPicture picture;
   std::vector<SampleJob> jobs;
   for (int i = 0; i < settings.width * settings.height; ++i) {
     picture.radiance.emplace_back(std::size_t(i % 4), glm::vec3(-1.0f));
@@ -79,7 +79,7 @@ void expect_single_paths(const TraceScene& scene, RenderSettings settings) {
       SCOPED_TRACE(std::string(row.id) + ", depth " + std::to_string(max_depth));
       settings.max_depth = max_depth;
       ++settings.seed;
-      const Picture picture = render(scene, settings, 100, 5);
+      const TracedPicture picture = render(scene, settings, 100, 5);
       std::size_t different = 0;
       for (int i = 0; i < settings.width * settings.height; ++i) {
         const std::vector<glm::vec3>& pixel = picture.radiance[std::size_t(i)];
@@ -200,7 +200,7 @@ TEST(PathLanes, DoNotDependOnWhatIsAskedForTogether) {
   RenderSettings settings = default_settings(scene.scene());
   settings.width = 40;
   settings.height = 30;
-  const Picture whole = render(scene, settings, 1200, 0);
+  const TracedPicture whole = render(scene, settings, 1200, 0);
   for (const std::size_t pixels :
        {std::size_t(1), std::size_t(3), std::size_t(10), std::size_t(17)}) {
     EXPECT_EQ(render(scene, settings, pixels, 0).radiance, whole.radiance) << pixels;

@@ -45,7 +45,7 @@ class Expectations {
   std::vector<Row> rows_;
 };
 
-constexpr int batches = 64;
+constexpr int transport_batches = 64;
 
 RenderSettings one_pixel(const Camera& camera, IntegratorId integrator, int max_depth) {
   return {.camera = camera,
@@ -69,14 +69,15 @@ TEST(Transport, FurnaceOfEveryAlbedoAndDepth) {
       settings.integrator = row.key;
       const std::string name = std::string(row.id) + ", albedo " + albedo;
       for (const auto& [x, y] : {std::pair{3, 5}, {32, 40}}) {
-        expectations.add(name, measure(scene, settings, x, y, batches, 800), 1.0 / (1.0 - a));
+        expectations.add(name, measure(scene, settings, x, y, transport_batches, 800),
+                         1.0 / (1.0 - a));
       }
       double truth = 0.0;
       for (int depth = 1; depth <= 6; ++depth) {
         truth += std::pow(a, depth - 1);
         settings.max_depth = depth;
         expectations.add(name + ", depth " + std::to_string(depth),
-                         measure(scene, settings, 10, 10, batches, 200), truth);
+                         measure(scene, settings, 10, 10, transport_batches, 200), truth);
       }
     }
   }
@@ -152,7 +153,8 @@ TEST(Transport, PolygonLightAgainstLambert) {
         }
         expectations.add(
             std::string(row.id) + ", " + c.name + (parallelogram ? ", parallelogram" : ""),
-            measure(trace, one_pixel(at_floor(c.point), row.key, 2), 0, 0, batches, 500), truth);
+            measure(trace, one_pixel(at_floor(c.point), row.key, 2), 0, 0, transport_batches, 500),
+            truth);
       }
     }
   }
@@ -186,7 +188,8 @@ TEST(Transport, SphereLightAbovePlane) {
       const Camera camera = pinhole({0.0f, 0.005f, 0.01f}, {}, {0.0f, 1.0f, 0.0f});
       expectations.add(std::string(row.id) + ", radius " + std::to_string(c.radius) + " at " +
                            std::to_string(distance),
-                       measure(trace, one_pixel(camera, row.key, 2), 0, 0, batches, 500), truth);
+                       measure(trace, one_pixel(camera, row.key, 2), 0, 0, transport_batches, 500),
+                       truth);
     }
   }
 }
@@ -204,9 +207,10 @@ TEST(Transport, DiskLightAboveItsCentre) {
   const TraceScene trace(std::move(scene));
   Expectations expectations;
   for (const Integrator& row : integrators()) {
-    expectations.add(std::string(row.id),
-                     measure(trace, one_pixel(at_floor({}), row.key, 2), 0, 0, batches, 500),
-                     0.6 * 5.0 * 0.64 / (0.64 + 2.25));
+    expectations.add(
+        std::string(row.id),
+        measure(trace, one_pixel(at_floor({}), row.key, 2), 0, 0, transport_batches, 500),
+        0.6 * 5.0 * 0.64 / (0.64 + 2.25));
   }
 }
 
@@ -228,14 +232,15 @@ TEST(Transport, EnvironmentAloneAndBesideALight) {
     for (const Integrator& row : integrators()) {
       const std::string name = std::string(row.id) + (beside ? ", beside a light" : "");
       expectations.add(
-          name, measure(trace, one_pixel(at_floor({}), row.key, 2), 0, 0, batches, 500), truth);
+          name, measure(trace, one_pixel(at_floor({}), row.key, 2), 0, 0, transport_batches, 500),
+          truth);
       Camera up = at_floor({});
       up.forward = {0.8f, 0.6f, 0.0f};
       up.right = {0.0f, 0.0f, 1.0f};
       up.up = {-0.6f, 0.8f, 0.0f};
       up.origin.y = 3.0f;
       expectations.add(name + ", seen itself",
-                       measure(trace, one_pixel(up, row.key, 1), 0, 0, batches, 2), 2.0);
+                       measure(trace, one_pixel(up, row.key, 1), 0, 0, transport_batches, 2), 2.0);
     }
   }
 }
@@ -273,7 +278,7 @@ TEST(Transport, PerfectGlassIsInvisibleInAConstantEnvironment) {
         RenderSettings settings =
             one_pixel(pinhole({0.0f, 0.0f, 6.0f}, aim, {0.0f, 1.0f, 0.0f}), row.key, unlimited);
         expectations.add(std::string(row.id) + (scene == &ball ? ", ball" : ", slab"),
-                         measure(trace, settings, 0, 0, batches, 500), 1.0);
+                         measure(trace, settings, 0, 0, transport_batches, 500), 1.0);
         std::vector<glm::vec3> samples(1000);
         const CameraRays camera(settings.camera, 1, 1);
         row.trace(trace, settings, camera, 0, 0, 0, samples);
@@ -294,9 +299,9 @@ TEST(Transport, RadianceInsideGlassGrowsWithTheSquareOfItsIndex) {
   for (const Integrator& row : integrators()) {
     // Near the critical angle, where half the light stays inside at each bounce.
     const Camera camera = pinhole({0.66f, 0.0f, 0.0f}, {0.66f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f});
-    expectations.add(std::string(row.id),
-                     measure(trace, one_pixel(camera, row.key, unlimited), 0, 0, batches, 500),
-                     2.25);
+    expectations.add(
+        std::string(row.id),
+        measure(trace, one_pixel(camera, row.key, unlimited), 0, 0, transport_batches, 500), 2.25);
   }
 }
 
@@ -320,9 +325,9 @@ TEST(Transport, AFloorSeenThroughGlassKeepsItsBrightness) {
   for (const Integrator& row : integrators()) {
     for (const glm::vec3 aim : {glm::vec3(0.3f, 0.2f, 0.0f), mirror.center, glm::vec3(1, -9, 0)}) {
       const Camera camera = pinhole({0.0f, 0.0f, 6.0f}, aim, {0.0f, 1.0f, 0.0f});
-      expectations.add(std::string(row.id),
-                       measure(trace, one_pixel(camera, row.key, unlimited), 0, 0, batches, 500),
-                       1.0);
+      expectations.add(
+          std::string(row.id),
+          measure(trace, one_pixel(camera, row.key, unlimited), 0, 0, transport_batches, 500), 1.0);
     }
   }
 }
@@ -342,7 +347,8 @@ TEST(Transport, DepthCountsTheSegmentsOfAPath) {
   const Camera camera = pinhole({0.0f, 3.0f, 1.0f}, {0.0f, 1.2f, -1.0f}, {0.0f, 1.0f, 0.0f}, 0.01f);
   for (const Integrator& row : integrators()) {
     for (int depth = 1; depth <= 3; ++depth) {
-      const Moments seen = measure(trace, one_pixel(camera, row.key, depth), 0, 0, batches, 20);
+      const Moments seen =
+          measure(trace, one_pixel(camera, row.key, depth), 0, 0, transport_batches, 20);
       if (depth < 3) {
         EXPECT_EQ(seen.mean(), 0.0) << row.id << ", depth " << depth;
       } else {

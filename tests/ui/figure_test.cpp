@@ -55,7 +55,7 @@ Figure with_long_texts() {
   return figure;
 }
 
-std::vector<Figure> figures() {
+std::vector<Figure> lab_figures() {
   std::vector<Figure> all{four_panels(480, 270), four_panels(64, 36), four_panels(500, 40),
                           with_long_texts()};
   all.push_back(four_panels(480, 270));
@@ -70,7 +70,7 @@ std::vector<Figure> figures() {
   return all;
 }
 
-bool overlap(const Rect& a, const Rect& b) {
+bool panels_overlap(const Rect& a, const Rect& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
@@ -85,7 +85,7 @@ std::vector<Rect> text_boxes(const FigureLayout& layout) {
 }
 
 TEST(FigureLayout, NothingOverlapsNorLeavesThePage) {
-  for (const Figure& figure : figures()) {
+  for (const Figure& figure : lab_figures()) {
     const FigureLayout layout = lay_out(figure);
     std::vector<Rect> boxes = text_boxes(layout);
     for (const PlacedImage& image : layout.images) {
@@ -100,7 +100,7 @@ TEST(FigureLayout, NothingOverlapsNorLeavesThePage) {
       EXPECT_LE(boxes[i].right(), layout.width - 10);
       EXPECT_LE(boxes[i].bottom(), layout.height - 10);
       for (std::size_t j = 0; j < i; ++j) {
-        EXPECT_FALSE(overlap(boxes[i], boxes[j])) << i << ' ' << j;
+        EXPECT_FALSE(panels_overlap(boxes[i], boxes[j])) << i << ' ' << j;
       }
     }
   }
@@ -137,7 +137,7 @@ TEST(FigureLayout, TextsTooLongEndInAnEllipsis) {
 
 TEST(FigurePng, HoldsEachPictureUnchangedAndInkOnlyInsideTheBoxes) {
   const TempFolder folder;
-  for (const Figure& figure : figures()) {
+  for (const Figure& figure : lab_figures()) {
     write_figure_png(figure, folder / "a.png");
     const DisplayImage page = read_png(folder / "a.png");
     const FigureLayout layout = lay_out(figure);
