@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/messages.h"
 #include "app/number_check.h"
 #include "app/shell_words.h"
 #include "renderer/version.h"
@@ -30,7 +31,7 @@ std::string joined_command_line(int argc, const char* const* argv) {
 }
 
 int complain(int code, std::string_view message) {
-  fmt::print(stderr, "quartet: {}\n", message);
+  tell("{}", message);
   return code;
 }
 

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <cstdio>
 #include <filesystem>
 
 #include "app/commands.h"
 #include "app/config_file.h"
 #include "app/imgui_screen.h"
 #include "app/lab_driver.h"
+#include "app/messages.h"
 #include "app/window.h"
 #include "renderer/measure/reference_cache.h"
 
@@ -86,10 +86,10 @@ void run_lab_window(const WindowOptions& options, const Program& program) {
   try {
     run_window(options);
   } catch (const NoDisplay& error) {
-    fmt::print(stderr,
-               "quartet: no window: {}. Without one there are: quartet figure SCENE --out DIR, and "
-               "quartet screenshot SCENE -o LAB.png. Writing the report's figures to out/.\n",
-               error.what());
+    tell(
+        "no window: {}. Without one there are: quartet figure SCENE --out DIR, and quartet "
+        "screenshot SCENE -o LAB.png. Writing the report's figures to out/.",
+        error.what());
     run_default_figure(program, options.scene);
   }
 }

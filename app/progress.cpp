@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "app/messages.h"
+#include "renderer/printable.h"
 
 namespace quartet {
 namespace {
@@ -30,7 +32,7 @@ Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(
 
 Progress::~Progress() {
   if (bar_shown_) {
-    std::fputs("\r\033[K", stderr);
+    tell_raw("\r\033[K");
   }
 }
 
@@ -48,11 +50,11 @@ void Progress::update(double fraction, std::string_view detail) {
       fraction > 0.0 ? duration_text(elapsed * (1.0 - fraction) / fraction) + " left" : "";
   if (terminal_) {
     bar_shown_ = true;
-    fmt::print(stderr, "\r\033[K{} [{}] {:3.0f} % {} · {}", what_, bar(fraction), 100.0 * fraction,
-               left, detail);
-    std::fflush(stderr);
+    tell_raw(fmt::format("\r\033[K{} [{}] {:3.0f} % {} · {}", what_, bar(fraction),
+                         100.0 * fraction, left, printable(detail)));
   } else {
-    fmt::print(stderr, "{}: {:.0f} %, {}, {}\n", what_, 100.0 * fraction, left, detail);
+    tell_raw(
+        fmt::format("{}: {:.0f} %, {}, {}\n", what_, 100.0 * fraction, left, printable(detail)));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/messages.h"
 #include "app/number_check.h"
 #include "app/reference_option.h"
 #include "renderer/image/exr.h"
@@ -57,8 +58,7 @@ void print_summary(const std::filesystem::path& path, const ReferenceRender& ren
       reference->noise_floor(MetricId::relmse), reference->noise_floor(MetricId::mse),
       reference->noise_floor(MetricId::flip));
   if (reference->rejected > 0) {
-    fmt::print(stderr, "quartet: warning: {} samples rejected (negative or not finite)\n",
-               reference->rejected);
+    warn("{} samples rejected (negative or not finite)", reference->rejected);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/messages.h"
 #include "app/progress.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
@@ -51,7 +52,7 @@ std::optional<CachedFile> best_cached(const std::array<std::filesystem::path, 2>
         best = CachedFile{path, std::move(*sums)};
       }
     } catch (const std::exception& error) {
-      fmt::print(stderr, "quartet: warning: {}\n", error.what());
+      warn("{}", error.what());
     }
   }
   return best;
@@ -64,7 +65,7 @@ void cache(const ReferenceRender& render, const std::filesystem::path& path,
     write_exr(files.stage(path.filename().string()), exr_of(render.sums(), command_line));
     files.commit();
   } catch (const std::exception& error) {
-    fmt::print(stderr, "quartet: warning: the reference is not cached: {}\n", error.what());
+    warn("the reference is not cached: {}", error.what());
   }
 }
 
@@ -84,10 +85,7 @@ std::shared_ptr<const Reference> reference_at(const std::string& path, const Run
   std::shared_ptr<const Reference> reference = load_reference(path);
   check_reference(*reference, run.scene->scene(), run.settings);
   if (!reference->ours()) {
-    fmt::print(stderr,
-               "quartet: warning: {} is no reference of Quartet's: whether it shows this scene "
-               "could not be checked\n",
-               path);
+    warn("{} is no reference of Quartet's: whether it shows this scene could not be checked", path);
   }
   return reference;
 }

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <cstdio>
 
+#include "app/messages.h"
 #include "renderer/adaptive/lab.h"
 #include "renderer/measure/rejected_sample.h"
 
@@ -21,10 +21,10 @@ void report_rejected(const RejectedSamples& rejected, RunOptions options,
   const auto index =
       first_rejected(sample_source(std::move(scene), settings), x, y, rejected.taken);
   assert(index);  // it is one of those that were taken
-  fmt::print(stderr,
-             "quartet: warning: {} samples were NaN, infinite or negative and left out; the first: "
-             "quartet trace {} --pixel {},{} --index {}\n",
-             rejected.count, scene_words(options), x, y, index.value_or(0));
+  warn(
+      "{} samples were NaN, infinite or negative and left out; the first: quartet trace {} --pixel "
+      "{},{} --index {}",
+      rejected.count, scene_words(options), x, y, index.value_or(0));
 }
 
 void report_rejected(const Snapshot& snapshot, const RunOptions& options) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "app/commands.h"
+#include "app/messages.h"
 #include "app/number_check.h"
 #include "app/shell_words.h"
 #include "renderer/scene/load_scene.h"
@@ -193,7 +194,7 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   const IntegratorId integrator = find_integrator(options.integrator).key;
   Scene scene = open_scene(options.scene, parse_defines(options.defines));
   for (const std::string& warning : scene.warnings) {
-    fmt::print(stderr, "quartet: warning: {}\n", warning);
+    warn("{}", warning);
   }
   Run run;
   run.settings = default_settings(scene);
@@ -235,10 +236,11 @@ SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator) {
 
 void tell_if_partial(const Lab& lab, const RunOptions& options) {
   if (lab.partial()) {
-    fmt::print(stderr,
-               "quartet: the samples outgrew --memory ({} GiB): the oldest were forgotten, and a "
-               "replay would trace them again\n",
-               options.memory_gib);
+    tell(
+        "the samples outgrew --memory ({} GiB): the oldest were forgotten, and a replay would "
+        "trace "
+        "them again",
+        options.memory_gib);
   }
 }
 
