@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/json_text.h"
 #include "app/lane_option.h"
 #include "app/number_check.h"
 #include "app/progress.h"
@@ -134,7 +135,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
     entry["lane"] = lane_text(each.policy);
     json["estimators"].push_back(std::move(entry));
   }
-  return json.dump(2);
+  return json_text(json);
 }
 
 void run_calibrate(const CalibrateOptions& options, const Program& program) {

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "app/json_text.h"
 #include "renderer/table.h"
 
 namespace quartet {
@@ -208,7 +209,7 @@ std::string claims_json(const ClaimsReport& report) {
     }
     json["findings"].push_back(std::move(entry));
   }
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string claims_csv(const ClaimsReport& report) {

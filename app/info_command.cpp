@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/json_text.h"
 #include "app/run_options.h"
 #include "app/scene_text.h"
 #include "app/vector_json.h"
@@ -169,7 +170,7 @@ ordered_json json_of(const Scene& scene) {
 void run_info(const InfoOptions& options) {
   const Scene scene = open_scene(options.scene, parse_defines(options.defines));
   if (options.as_json) {
-    fmt::print("{}\n", json_of(scene).dump(2));
+    fmt::print("{}\n", json_text(json_of(scene)));
   } else {
     print_text(scene);
   }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/json_text.h"
 #include "renderer/adaptive/policy.h"
 #include "renderer/image/color_map.h"
 #include "renderer/image/tone_map.h"
@@ -123,7 +124,7 @@ void add_list_command(CLI::App& app, const Program&) {
   command->footer("Examples:\n  quartet list\n  quartet list --json");
   command->callback([as_json] {
     if (*as_json) {
-      fmt::print("{}\n", tables().dump(2));
+      fmt::print("{}\n", json_text(tables()));
     } else {
       print_tables();
     }
