@@ -75,8 +75,7 @@ void run_bias(const BiasOptions& options, const Program& program) {
     }
   }
   const BiasReport report{run, all, options.frames, options.confidence, program.command_line};
-  write_bias_files(files, report);
-  files.commit();
+  files.finish([&] { write_bias_files(files, report); });
   print_table(report);
   const auto most =
       std::ranges::max_element(all, {}, [](const BiasRuns& runs) { return runs.rejected.count; });

@@ -34,7 +34,7 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
   const std::filesystem::path csv = options.csv;
   std::optional<StagedFiles> files;
   if (!csv.empty()) {
-    files.emplace(csv.parent_path());
+    files.emplace(csv.parent_path(), std::vector{csv.filename().string()});
   }
   std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
   if (!reference) {
@@ -54,8 +54,7 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
   }
   const ClaimsReport report{run, *data, options.frames, reference->spp, program.command_line};
   if (files) {
-    files->write(csv.filename().string(), claims_csv(report));
-    files->commit();
+    files->finish([&] { files->write(csv.filename().string(), claims_csv(report)); });
   }
   fmt::print("{}", options.json ? claims_json(report) : claims_text(report));
   report_rejected(data->rejected, options.run, run.scene, run.settings);

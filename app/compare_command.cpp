@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/commands.h"
+#include "app/json_text.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference.h"
@@ -144,7 +145,7 @@ void run_compare(const CompareOptions& options, const Program& program) {
   }
   const CompareResult comparison = load(options);
   if (!picture.empty()) {
-    StagedFiles files(picture.parent_path());
+    StagedFiles files(picture.parent_path(), {picture.filename().string()});
     const Figure figure = error_figure(
         comparison.test, comparison.reference->image, row,
         fmt::format("{} against {}", std::filesystem::path(options.test).filename().string(),
@@ -154,7 +155,7 @@ void run_compare(const CompareOptions& options, const Program& program) {
     files.commit();
   }
   if (options.json) {
-    fmt::print("{}\n", record_of(options, comparison).dump(2));
+    fmt::print("{}\n", json_text(record_of(options, comparison)));
   } else {
     print_table(options, comparison);
   }

@@ -60,9 +60,10 @@ void run_figure(const FigureOptions& options, const Program& program) {
   Snapshot snapshot = run_to_end(lab, stop, image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
-  write_lab_files(files, snapshot, view, program.command_line,
-                  RunCost{run.lab.threads, &lab.store(), lab.pilot_store()}, reference.get());
-  files.commit();
+  files.finish([&] {
+    write_lab_files(files, snapshot, view, program.command_line,
+                    RunCost{run.lab.threads, &lab.store(), lab.pilot_store()}, reference.get());
+  });
   print_table(snapshot, options.out);
   report_rejected(snapshot, options.run);
   tell_if_partial(lab, options.run);

@@ -1,39 +1,60 @@
 #include "app/interrupt.h"
 
+#include <atomic>
 #include <cassert>
+#include <cerrno>
 #include <csignal>
 #include <optional>
+
+#include "renderer/image/leftovers.h"
 
 namespace quartet {
 namespace {
 
-// A signal handler can reach nothing but a global.
+// A signal handler can reach nothing but globals.
 std::optional<std::stop_source> current;
+std::atomic<bool> stops_first = false;  // whether the next signal asks `current` to stop
 
-extern "C" void request_stop(int) {
-  // Nobody registers callbacks, so this is one compare-and-swap and safe in a handler.
-  current->request_stop();
-}
-
-void set_handler(void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  // The default handler comes back by itself, for the second Ctrl-C.
-  action.sa_flags = SA_RESTART | (handler == SIG_DFL ? 0 : int(SA_RESETHAND));
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+extern "C" void on_ending_signal(int signal) {
+  const int error = errno;
+  if (stops_first.exchange(false)) {
+    // Nobody registers callbacks, so this is one compare-and-swap and safe in a handler.
+    current->request_stop();
+  } else if (!hold_signal(signal)) {
+    remove_leftovers();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  errno = error;
 }
 
 }  // namespace
 
+void handle_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_ending_signal;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    sigaddset(&action.sa_mask, signal);
+  }
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction old {};
+  sigaction(SIGHUP, nullptr, &old);
+  if (old.sa_handler != SIG_IGN) {  // as nohup leaves it
+    sigaction(SIGHUP, &action, nullptr);
+  }
+}
+
 Interrupt::Interrupt() {
   assert(!current);
   current.emplace();
-  set_handler(request_stop);
+  stops_first = true;
+  handle_signals();
 }
 
 Interrupt::~Interrupt() {
-  set_handler(SIG_DFL);
+  stops_first = false;
   current.reset();
 }
 

@@ -5,13 +5,17 @@
 
 namespace quartet {
 
-/// Work that was ended by Ctrl-C or SIGTERM.
+/// Work that was ended by a signal.
 struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted; nothing was written") {}
 };
 
-/// While this lives, Ctrl-C and SIGTERM ask `token()` to stop; a second one ends the program at
-/// once. One at a time.
+/// From here on Ctrl-C, SIGTERM and a terminal that goes away leave no unfinished files behind.
+/// They end the program as they would otherwise, unless an Interrupt lives.
+void handle_signals();
+
+/// While this lives, these signals ask `token()` to stop; a second one ends the program at once.
+/// One at a time.
 class Interrupt {
  public:
   Interrupt();

@@ -45,14 +45,14 @@ void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSet
       name += fmt::format("-{}", before + 1);
     }
     ExrImage exr = lane_exr(snapshot, i);
-    exr.attributes = exr_attributes(command_line, snapshot, i);
+    exr.attributes = exr_attributes(command_line, snapshot, i, files.run());
     write_exr(files.stage(name + ".exr"), exr);
     write_png(files.stage(name + ".png"), draw_view(snapshot, i, ViewKind::image, view).image);
     write_png(files.stage(name + "-heatmap.png"),
               draw_view(snapshot, i, ViewKind::heatmap, view).image);
   }
   files.write("panels.csv", csv_record(snapshot));
-  files.write("panels.json", json_record(command_line, snapshot, cost, reference));
+  files.write("panels.json", json_record(command_line, snapshot, cost, reference, files.run()));
 }
 
 }  // namespace quartet

@@ -11,7 +11,8 @@ namespace quartet {
 
 /// Everything that is saved of lanes at a frame, by the command line and by the window: the two
 /// figures (images and heatmaps, PNG and PDF), each lane's EXR, PNG and heatmap, panels.csv and
-/// panels.json. `reference` says where that of the snapshot comes from, if that is known.
+/// panels.json. EXR and JSON hold files.run(). `reference` says where that of the snapshot comes
+/// from, if that is known.
 void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
                      const std::string& command_line, const std::optional<RunCost>& cost,
                      const Reference* reference = nullptr);

@@ -1,10 +1,12 @@
 #include <malloc.h>
 
 #include "app/command_line.h"
+#include "app/interrupt.h"
 #include "app/messages.h"
 
 int main(int argc, char** argv) {
   quartet::prepare_streams();
+  quartet::handle_signals();
   // Planes of a picture come and go with every frame. Memory that goes back to the system each time
   // must come anew, page by page.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);

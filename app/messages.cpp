@@ -34,6 +34,7 @@ void prepare_streams() noexcept {
     ::close(descriptor);
   }
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void tell_raw(std::string_view bytes) noexcept {

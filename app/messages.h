@@ -8,8 +8,8 @@
 namespace quartet {
 
 /// Before anything is opened: descriptors 0 to 2 that are closed get something harmless, so that no
-/// file that is written later becomes the standard output or error; and a reader that goes away is
-/// an error of the write, not the end of the program.
+/// file that is written later becomes the standard output or error; and a reader that goes away, or
+/// a limit on the size of files, is an error of the write and not the end of the program.
 void prepare_streams() noexcept;
 
 // Messages for people, on the standard error. They may be lost: what a full disk or a closed pipe

@@ -59,7 +59,6 @@ void write_output(const std::filesystem::path& path, const Program& program,
     exr.attributes = exr_attributes(program.command_line, snapshot, 0);
     write_exr(temporary, exr);
   }
-  files.commit();
 }
 
 void print_summary(const std::filesystem::path& path, const Snapshot& snapshot,
@@ -85,13 +84,13 @@ void run_render(const RenderOptions& options, const Program& program) {
   Run run = prepare_run(options.run, 1);
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(std::span(&policy, 1), reference);
-  StagedFiles files(output.parent_path());
+  StagedFiles files(output.parent_path(), {output.filename().string()});
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height,
           std::span(&policy, 1), run.lab);
   Snapshot snapshot = run_to_end(lab, stop, image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
-  write_output(output, program, snapshot, files);
+  files.finish([&] { write_output(output, program, snapshot, files); });
   print_summary(output, snapshot, reference.get());
   tell_if_partial(lab, options.run);
   report_rejected(snapshot, options.run);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/json_text.h"
 #include "app/vector_json.h"
 #include "renderer/image/views.h"
 #include "renderer/measure/metrics.h"
@@ -101,7 +102,8 @@ ordered_json reference_json(const Reference& reference) {
 }  // namespace
 
 std::map<std::string, std::string> exr_attributes(const std::string& command_line,
-                                                  const Snapshot& snapshot, std::size_t lane) {
+                                                  const Snapshot& snapshot, std::size_t lane,
+                                                  const std::string& run) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
   ordered_json settings = settings_json(snapshot.settings);
   settings["policy"] = policy_json(shown.policy);
@@ -115,6 +117,9 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
       {"mode", std::string(sample_use(shown.policy.use).id)},
       {"varianceMeaning", "Variance.*: unbiased estimate of the variance of the pixel mean"},
   };
+  if (!run.empty()) {
+    attributes["run"] = run;
+  }
   if (!shown.history.empty()) {
     attributes["seconds"] = fmt::format("{:.6g}", shown.history.back().seconds);
     attributes["samples"] = std::to_string(shown.history.back().samples);
@@ -124,12 +129,16 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
 }
 
 std::string json_record(const std::string& command_line, const Snapshot& snapshot,
-                        const std::optional<RunCost>& cost, const Reference* reference) {
+                        const std::optional<RunCost>& cost, const Reference* reference,
+                        const std::string& run) {
   const Scene& scene = snapshot.scene->scene();
   ordered_json json;
   json["program"] = "quartet";
   json["version"] = version();
   json["command_line"] = command_line;
+  if (!run.empty()) {
+    json["run"] = run;
+  }
   json["scene"] = scene.name;
   json["scene_file"] = scene.path.string();
   json["warnings"] = scene.warnings;
@@ -167,7 +176,7 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
     }
     json["lanes"].push_back(std::move(entry));
   }
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string thresholds_text(const SamplingPolicy& policy) {

@@ -24,13 +24,16 @@ struct RunCost {
 };
 
 /// Text attributes for the header of a lane's EXR.
+/// `run` is that of the files that belong together; empty for a single one.
 std::map<std::string, std::string> exr_attributes(const std::string& command_line,
-                                                  const Snapshot& snapshot, std::size_t lane);
+                                                  const Snapshot& snapshot, std::size_t lane,
+                                                  const std::string& run = "");
 
 /// One JSON document: settings, the store if its cost is known, the reference if there is one, and
 /// each lane with its history and its errors against the reference.
 std::string json_record(const std::string& command_line, const Snapshot& snapshot,
-                        const std::optional<RunCost>& cost, const Reference* reference = nullptr);
+                        const std::optional<RunCost>& cost, const Reference* reference = nullptr,
+                        const std::string& run = "");
 
 /// The first line of every long-form CSV.
 inline constexpr std::string_view csv_header =

@@ -142,7 +142,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   const Run run = prepare_run(options.run, lane_count);
   LabState state = state_of(options, run);
   truth_for(state.request.policies, reference_at(options.reference, run));  // throws if it is unfit
-  StagedFiles files(output.parent_path());
+  StagedFiles files(output.parent_path(), {output.filename().string()});
   EndSeeker end(stop, state.request.metric, state);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;
@@ -183,8 +183,7 @@ void run_screenshot(const ScreenshotOptions& options) {
     std::this_thread::sleep_for(std::chrono::milliseconds(40));
     draw();
   }
-  write_png(files.stage(output.filename().string()), offscreen.read());
-  files.commit();
+  files.finish([&] { write_png(files.stage(output.filename().string()), offscreen.read()); });
   report_rejected(*driver.snapshot(), options.run);
 }
 

@@ -143,8 +143,8 @@ void run_stability_command(const StabilityCommand& command, const Program& progr
     }
   }
   const StabilitySummary summary = summarize(results, 1.0 - command.confidence);
-  write_stability_files(files, options, results, summary, program.command_line);
-  files.commit();
+  files.finish(
+      [&] { write_stability_files(files, options, results, summary, program.command_line); });
   print_summary(options, summary);
   report_rejected(results);
 }

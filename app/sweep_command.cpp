@@ -211,8 +211,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
                            reference->noise_floor(plan.metrics.front()),
                            reference->spp,
                            program.command_line};
-  write_sweep_files(files, report);
-  files.commit();
+  files.finish([&] { write_sweep_files(files, report); });
   print_points(summarize(*result, plan, 0, report.noise_floor));
   print_savings(*result);
   fmt::print("sweep and calibration as .csv, .png, .pdf and .svg are in {}; median of {}\n",

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <system_error>
 
 #include "renderer/cancel.h"
+#include "renderer/system_calls.h"
 
 namespace quartet {
 namespace {
@@ -29,12 +29,12 @@ class OpenFile {
  public:
   // O_NONBLOCK: opening a pipe would wait for somebody to write into it.
   explicit OpenFile(const std::filesystem::path& path)
-      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+      : descriptor_(system_calls().open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK, 0)) {
     if (descriptor_ < 0) {
       fail(path, errno);
     }
   }
-  ~OpenFile() { ::close(descriptor_); }
+  ~OpenFile() { system_calls().close(descriptor_); }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
@@ -76,7 +76,8 @@ std::string read_regular_file(const std::filesystem::path& path, std::size_t lim
   std::size_t done = 0;
   while (done < size) {
     check_cancelled(stop);
-    const ssize_t got = ::read(file.descriptor(), bytes.data() + done, std::min(step, size - done));
+    const ssize_t got = system_calls().read(file.descriptor(), bytes.data() + done,
+                                            std::min(step, size - done), off_t(done));
     if (got < 0 && errno == EINTR) {
       continue;
     }

@@ -1,14 +1,16 @@
 #include "renderer/image/staged_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cstdint>
+#include <exception>
+#include <random>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
+#include "renderer/image/file_target.h"
 #include "renderer/image/file_writer.h"
 
 namespace quartet {
@@ -17,96 +19,116 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path temporary_path(const fs::path& folder, std::string_view name) {
-  return folder / fmt::format("{}.{}.part", name, ::getpid());
+std::string random_hexadecimal() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
 }
 
-/// Waits until the file is on the disk: some file systems report a full disk or quota only then.
-/// Throws std::runtime_error that names the final path.
-void make_durable(const fs::path& temporary, const fs::path& final) {
-  const auto fail = [&](int error) {
-    throw std::runtime_error(
-        fmt::format("cannot write {}: {}", final.string(), std::generic_category().message(error)));
-  };
-  const int file = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    fail(errno);
-  }
-  const int synced = ::fsync(file);
-  const int error = errno;
-  ::close(file);
-  // EINVAL: a file system that cannot be asked.
-  if (synced != 0 && error != EINVAL) {
-    fail(error);
+/// A new folder among the system's temporary files.
+fs::path rescue_folder() {
+  return fs::temp_directory_path() / ("quartet-rescued-" + random_hexadecimal());
+}
+
+void check_name(std::string_view name) {
+  const fs::path path(name);
+  if (path.empty() || path != path.filename() || path == "." || path == "..") {
+    throw std::runtime_error(fmt::format(
+        "'{}' is no name for an output file; one such as images.png would be right", name));
   }
 }
 
 }  // namespace
 
-StagedFiles::StagedFiles(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {
-  std::error_code error;
-  for (fs::path missing = folder_; !missing.empty() && !fs::exists(missing, error);
-       missing = missing.parent_path()) {
-    created_folders_.push_back(missing);
-  }
+StagedFiles::StagedFiles(const fs::path& folder, const std::vector<std::string>& names)
+    : folder_(folder.empty() ? "." : folder), run_(random_hexadecimal()) {
   try {
-    fs::create_directories(folder_, error);
-    if (error || !fs::is_directory(folder_)) {
-      throw std::runtime_error(
-          fmt::format("cannot create the output folder {}: {}", folder_.string(),
-                      error ? error.message() : "a file of that name is in the way"));
+    make_folder();
+    clear_dead();
+    // Permission bits would not tell about read-only file systems, nor about root.
+    const StagingFolder trial(folder_);
+    for (const std::string& name : names) {
+      check_name(name);
+      target_of(folder_ / name);
     }
-    check_writable();
   } catch (...) {
     remove_created_folders();
     throw;
   }
 }
 
+/// Where this or an earlier program may have died while it wrote into this folder.
+void StagedFiles::clear_dead() {
+  const std::string last(set_list_name);
+  std::error_code ignored;
+  clear_dead_staging(fs::canonical(folder_, ignored).parent_path(), last);
+  const FolderLock lock(folder_);
+  clear_dead_staging(folder_, last);
+}
+
 StagedFiles::~StagedFiles() {
-  for (const Staged& file : staged_) {
-    std::error_code ignored;
-    fs::remove(file.temporary, ignored);
-  }
+  discard();
   remove_created_folders();
 }
 
-void StagedFiles::check_writable() const {
-  // Permission bits would not tell about read-only file systems, nor about root.
-  const fs::path trial = temporary_path(folder_, ".quartet");
-  const int file = ::open(trial.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) {
-    throw std::runtime_error(fmt::format("cannot write into the folder {}: {}", folder_.string(),
-                                         std::generic_category().message(errno)));
+void StagedFiles::make_folder() {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path each = folder_; !each.empty() && !fs::exists(each, error);
+       each = each.parent_path()) {
+    missing.push_back(each);
   }
-  ::close(file);
-  ::unlink(trial.c_str());
+  for (auto each = missing.rbegin(); each != missing.rend(); ++each) {
+    if (fs::create_directory(*each, error)) {
+      created_folders_.emplace(created_folders_.begin(), *each, Leftover(*each));
+    }
+  }
+  std::error_code ignored;
+  if (!fs::is_directory(folder_, ignored)) {
+    throw std::runtime_error(
+        fmt::format("cannot create the output folder {}: {}", folder_.string(),
+                    error ? error.message() : "a file of that name is in the way"));
+  }
 }
 
 void StagedFiles::remove_created_folders() {
   // fs::remove leaves a folder that is not empty.
-  for (const fs::path& folder : created_folders_) {
+  for (const auto& [folder, leftover] : created_folders_) {
     std::error_code ignored;
     fs::remove(folder, ignored);
   }
+  created_folders_.clear();
+}
+
+void StagedFiles::discard() {
+  staged_.clear();
+  stagings_.clear();
+  leftovers_.clear();
+}
+
+StagingFolder& StagedFiles::staging_in(const fs::path& folder) {
+  for (const auto& staging : stagings_) {
+    if (staging->parent() == folder) {
+      return *staging;
+    }
+  }
+  stagings_.push_back(std::make_unique<StagingFolder>(folder));
+  return *stagings_.back();
 }
 
 fs::path StagedFiles::stage(std::string_view final_name) {
-  const fs::path name(final_name);
-  if (name.empty() || name != name.filename() || name == "." || name == "..") {
-    throw std::runtime_error(fmt::format(
-        "'{}' is no name for an output file; one such as images.png would be right", final_name));
+  check_name(final_name);
+  std::error_code ignored;
+  if (!fs::exists(folder_, ignored)) {
+    make_folder();
   }
-  const fs::path final = folder_ / name;
-  if (fs::is_directory(final)) {
-    throw std::runtime_error(fmt::format(
-        "cannot write {}: it is a folder; the name of a file would be right", final.string()));
-  }
+  const fs::path final = target_of(folder_ / final_name);
   if (std::ranges::find(staged_, final, &Staged::final) != staged_.end()) {
     throw std::runtime_error(fmt::format("{} would be written twice", final.string()));
   }
-  staged_.push_back({temporary_path(folder_, final_name), final});
-  return staged_.back().temporary;
+  staged_.push_back({&staging_in(final.parent_path()), final.filename().string(), final, false});
+  fs::path temporary = staged_.back().temporary();
+  leftovers_.emplace_back(temporary);
+  return temporary;
 }
 
 void StagedFiles::write(std::string_view final_name, std::string_view text) {
@@ -115,20 +137,65 @@ void StagedFiles::write(std::string_view final_name, std::string_view text) {
   file.close();
 }
 
-void StagedFiles::commit() {
+/// The list that says what belongs together; it gets its name last.
+void StagedFiles::list_set() {
+  std::string text = fmt::format(
+      "These files belong together. Others in this folder, and files whose CRC-32 or bytes differ, "
+      "do not.\nrun {}\n",
+      run_);
   for (const Staged& file : staged_) {
-    make_durable(file.temporary, file.final);
+    text += fmt::format("{} {}\n", checksum_text(file.temporary()), file.name);
   }
+  write(set_list_name, text);
+}
+
+bool StagedFiles::commit(const std::function<bool()>& wanted) {
   for (const Staged& file : staged_) {
-    std::error_code error;
-    fs::rename(file.temporary, file.final, error);
-    if (error) {
-      throw std::runtime_error(
-          fmt::format("cannot write {}: {}", file.final.string(), error.message()));
+    make_durable(file.temporary(), file.final);
+  }
+  if (staged_.size() > 1) {
+    list_set();
+    make_durable(staged_.back().temporary(), staged_.back().final);
+  }
+  {
+    const FolderLock lock(staged_.empty() ? folder_ : staged_.front().staging->parent());
+    // Of one who died since then and was giving his files their names: they would come later, over
+    // these.
+    clear_dead_staging(folder_, std::string(set_list_name));
+    if (wanted && !wanted()) {
+      return false;
     }
+    const HoldSignals hold;
+    if (!exchange_folder()) {
+      rename_each();
+    }
+    discard();
+    created_folders_.clear();
   }
-  staged_.clear();
-  created_folders_.clear();
+  return true;
+}
+
+bool StagedFiles::finish(const std::function<void()>& write, const std::function<bool()>& wanted) {
+  std::exception_ptr failure;
+  std::string reason;
+  try {
+    write();
+    return commit(wanted);
+  } catch (const std::exception& error) {
+    failure = std::current_exception();
+    reason = error.what();
+  }
+  discard();
+  remove_created_folders();
+  try {
+    folder_ = rescue_folder();
+    make_folder();
+    write();
+    commit();
+  } catch (const std::exception&) {
+    std::rethrow_exception(failure);  // it is not the place that is wrong
+  }
+  throw std::runtime_error(fmt::format("{}; what was made is in {}", reason, folder_.string()));
 }
 
 }  // namespace quartet

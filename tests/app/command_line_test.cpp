@@ -91,11 +91,11 @@ TEST(CommandLine, FigureWritesAllItsFiles) {
                              "--seed", "7", "--out", out.string()});
   ASSERT_EQ(result.code, 0) << result.error;
   EXPECT_EQ(names_in(out),
-            (std::set<std::string>{"images.png", "images.pdf", "heatmaps.png", "heatmaps.pdf",
-                                   "contrast.exr", "contrast.png", "contrast-heatmap.png", "kl.exr",
-                                   "kl.png", "kl-heatmap.png", "chi2.exr", "chi2.png",
-                                   "chi2-heatmap.png", "hellinger.exr", "hellinger.png",
-                                   "hellinger-heatmap.png", "panels.csv", "panels.json"}));
+            (std::set<std::string>{
+                "images.png", "images.pdf", "heatmaps.png", "heatmaps.pdf", "contrast.exr",
+                "contrast.png", "contrast-heatmap.png", "kl.exr", "kl.png", "kl-heatmap.png",
+                "chi2.exr", "chi2.png", "chi2-heatmap.png", "hellinger.exr", "hellinger.png",
+                "hellinger-heatmap.png", "panels.csv", "panels.json", "quartet-files.txt"}));
   const auto json = nlohmann::json::parse(bytes_of(out / "panels.json"));
   EXPECT_EQ(json.at("settings").at("seed"), 7);
   EXPECT_EQ(json.at("settings").at("width"), 32);

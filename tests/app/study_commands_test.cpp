@@ -46,8 +46,8 @@ TEST_F(StudyCommands, BiasIsTheSameWithAnyNumberOfThreads) {
     if (threads == "1") {
       csv = without_seconds(bytes_of(path("1/bias.csv")));
       exr = here;
-      EXPECT_EQ(names_in(path("1")),
-                (std::set<std::string>{"bias.png", "bias.pdf", "bias.exr", "bias.csv"}));
+      EXPECT_EQ(names_in(path("1")), (std::set<std::string>{"bias.png", "bias.pdf", "bias.exr",
+                                                            "bias.csv", "quartet-files.txt"}));
       EXPECT_EQ(exr.channels.size(), 3u + 2 * 4);
       // Four policies and modes: two seeds, and five numbers over both.
       EXPECT_EQ(csv.size(), 1u + 4 * (2 + 5));
@@ -70,7 +70,8 @@ TEST_F(StudyCommands, StabilityIsTheSameWithAnyNumberOfThreads) {
       summary = without_seconds(bytes_of(path("1/stability.csv")));
       trials = without_seconds(bytes_of(path("1/trials.csv")));
       EXPECT_EQ(names_in(path("1")),
-                (std::set<std::string>{"matrix.png", "matrix.pdf", "stability.csv", "trials.csv"}));
+                (std::set<std::string>{"matrix.png", "matrix.pdf", "stability.csv", "trials.csv",
+                                       "quartet-files.txt"}));
       EXPECT_GT(summary.size(), 40u);
       EXPECT_GT(trials.size(), 100u);
     }
