@@ -4,31 +4,24 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
-#include <ImfThreading.h>
 #include <fmt/format.h>
 #include <half.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
-#include <optional>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/image/exr_header.h"
 #include "renderer/image/file_writer.h"
 
 namespace quartet {
 
 namespace {
-
-// Larger than any picture of ours, and small enough that a damaged header cannot ask for all
-// memory: 2^28 numbers are 1 GB.
-constexpr int kMaxSide = 1 << 16;
-constexpr std::size_t kMaxNumbers = std::size_t(1) << 28;
 
 /// OpenEXR's stream over FileWriter, so that a full disk is an error with its reason.
 class ExrStream : public Imf::OStream {
@@ -44,26 +37,9 @@ class ExrStream : public Imf::OStream {
   FileWriter& file_;
 };
 
-/// Threads that compress rows, of OpenEXR's own; they start with the first file that is written.
-int compression_threads() {
-  static const int count = [] {
-    Imf::setGlobalThreadCount(tbb::this_task_arena::max_concurrency());
-    return Imf::globalThreadCount();
-  }();
-  return count;
-}
-
 Imath::Box2i box_of(const ExrWindow& window) {
   return {Imath::V2i(window.x, window.y),
           Imath::V2i(window.x + window.width - 1, window.y + window.height - 1)};
-}
-
-ExrWindow window_of(const Imath::Box2i& box) {
-  return {box.min.x, box.min.y, box.max.x - box.min.x + 1, box.max.y - box.min.y + 1};
-}
-
-std::string text_of(const ExrWindow& window) {
-  return fmt::format("{}x{} at ({}, {})", window.width, window.height, window.x, window.y);
 }
 
 bool contains(const ExrWindow& outer, const ExrWindow& inner) {
@@ -80,12 +56,6 @@ Imf::Slice slice_of(Imf::PixelType type, const T* pixels, const ExrWindow& windo
                           sizeof(T), sizeof(T) * static_cast<std::size_t>(window.width));
 }
 
-/// One line, whatever a library's message looks like.
-std::string one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
-}
-
 Imf::Header header_of(const ExrImage& image) {
   Imf::Header header(box_of(image.display), box_of(image.data), 1.f, Imath::V2f(0.f, 0.f), 1.f,
                      Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
@@ -93,62 +63,6 @@ Imf::Header header_of(const ExrImage& image) {
     header.insert(name, Imf::StringAttribute(text));
   }
   return header;
-}
-
-ExrChannel read_channel(Imf::InputFile& file, const char* name, const Imf::Channel& channel,
-                        const ExrWindow& window) {
-  const std::size_t size =
-      static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
-  ExrChannel result{name, {}, channel.type == Imf::HALF};
-  Imf::FrameBuffer buffer;
-  if (channel.type == Imf::UINT) {
-    auto& pixels = result.pixels.emplace<std::vector<std::uint32_t>>(size);
-    buffer.insert(name, slice_of(Imf::UINT, pixels.data(), window));
-  } else {
-    auto& pixels = result.pixels.emplace<std::vector<float>>(size);
-    buffer.insert(name, slice_of(Imf::FLOAT, pixels.data(), window));
-  }
-  file.setFrameBuffer(buffer);
-  file.readPixels(window.y, window.y + window.height - 1);
-  return result;
-}
-
-ExrImage read_file(const std::filesystem::path& path) {
-  // OpenEXR checks the windows against this before it takes memory for them.
-  static const bool limited = (Imf::Header::setMaxImageSize(kMaxSide, kMaxSide), true);
-  static_cast<void>(limited);
-  Imf::InputFile file(path.c_str());
-  const Imf::Header& header = file.header();
-  ExrImage image;
-  image.data = window_of(header.dataWindow());
-  image.display = window_of(header.displayWindow());
-
-  std::size_t channels = 0;
-  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-    ++channels;
-    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
-      throw std::runtime_error(
-          fmt::format("channel {} is subsampled; channels with a value for each pixel, such as "
-                      "R G B, would be right",
-                      it.name()));
-    }
-  }
-  const std::size_t numbers = channels * static_cast<std::size_t>(image.data.width) *
-                              static_cast<std::size_t>(image.data.height);
-  if (numbers > kMaxNumbers) {
-    throw std::runtime_error(
-        fmt::format("{} pixels with {} channels would take {} MB; at most {} MB would be right",
-                    text_of(image.data), channels, numbers >> 18, kMaxNumbers >> 18));
-  }
-  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-    image.channels.push_back(read_channel(file, it.name(), it.channel(), image.data));
-  }
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) {
-      image.attributes[it.name()] = text->value();
-    }
-  }
-  return image;
 }
 
 }  // namespace
@@ -175,9 +89,24 @@ void ExrImage::add_radiance(const RadianceImage& radiance) {
   }
 }
 
+void check_exr_size(int width, int height, std::size_t channels) {
+  const std::size_t pixels = std::size_t(width) * std::size_t(height);
+  if (width > max_exr_side || height > max_exr_side || channels * pixels > max_exr_numbers) {
+    throw std::runtime_error(fmt::format(
+        "an EXR of {}x{} pixels with {} channels could not be read again; sides of at most {} and "
+        "{} million numbers would be right",
+        width, height, channels, max_exr_side, max_exr_numbers / 1'000'000));
+  }
+}
+
 void write_exr(const std::filesystem::path& path, const ExrImage& image) {
   [[maybe_unused]] const std::size_t size =
       static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  try {
+    check_exr_size(image.width(), image.height(), image.channels.size());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), error.what()));
+  }
   FileWriter file(path);
   try {
     Imf::Header header = header_of(image);
@@ -202,26 +131,15 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
       }
     }
     ExrStream stream(file, path.string());
-    Imf::OutputFile output(stream, header, compression_threads());
+    Imf::OutputFile output(stream, header, exr_threads());
     output.setFrameBuffer(buffer);
     output.writePixels(image.height());
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     file.fail(one_line(error.what()));
   }
   file.close();
-}
-
-ExrImage read_exr(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    throw std::runtime_error(fmt::format("cannot read {}: no such file", path.string()));
-  }
-  try {
-    return read_file(path);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(
-        fmt::format("cannot read {} as EXR: {}", path.string(), one_line(error.what())));
-  }
 }
 
 RadianceImage radiance_of(const ExrImage& image, const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -48,14 +49,20 @@ struct ExrImage {
   void add_radiance(const RadianceImage& radiance);  ///< channels R, G, B
 };
 
+/// Throws std::runtime_error with the limits if an EXR of this size could be written but not read
+/// again.
+void check_exr_size(int width, int height, std::size_t channels);
+
 /// Writes scanlines, losslessly compressed (ZIP). The same image gives the same bytes. Throws
-/// std::runtime_error that names the path and the reason.
+/// std::runtime_error that names the path and the reason, also where read_exr would refuse it.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 
 /// Reads the first part of any scanline or tiled file: all half, float and uint channels, in the
-/// file's order of names. Throws std::runtime_error that names the path, what is wrong and what
-/// would be right (not an EXR, truncated, deep, subsampled channels, absurd size).
-ExrImage read_exr(const std::filesystem::path& path);
+/// file's order of names. Takes no more memory than the file's bytes can become by decompression.
+/// Throws std::runtime_error that names the path, what is wrong and what would be right (not an
+/// EXR, no regular file, truncated, deep, subsampled channels, absurd size), and Cancelled soon
+/// after a stop was asked for.
+ExrImage read_exr(const std::filesystem::path& path, const std::stop_token& stop = {});
 
 /// The channels R, G, B of an image that was read from `path`, within its display window: what
 /// other programs render beyond its edges is left out. Throws std::runtime_error that names the
