@@ -62,6 +62,26 @@ void print_summary(const std::filesystem::path& path, const ReferenceRender& ren
   }
 }
 
+/// Into the file, unless another run has put more of the same samples there meanwhile.
+bool keep(const ReferenceSums& sums, const ReferenceOptions& options, const Program& program,
+          StagedFiles& files) {
+  const std::filesystem::path output = options.output;
+  std::uint64_t there = 0;
+  const bool kept = files.finish(
+      [&] {
+        write_exr(files.stage(output.filename().string()), exr_of(sums, program.command_line));
+      },
+      [&] {
+        there = options.restart ? 0 : samples_in(output, sums);
+        return there <= sums.spp;
+      });
+  if (!kept) {
+    tell("{} has {} spp by now, of another run; the {} of this one are among them", output.string(),
+         there, sums.spp);
+  }
+  return kept;
+}
+
 void run_reference_command(const ReferenceOptions& options, const Program& program) {
   const std::filesystem::path output = options.output;
   if (output.extension() != ".exr") {
@@ -76,17 +96,14 @@ void run_reference_command(const ReferenceOptions& options, const Program& progr
   if (!options.restart) {
     resume_from(output, render);
   }
-  StagedFiles files(output.parent_path());
+  StagedFiles files(output.parent_path(), {output.filename().string()});
   const std::uint64_t before = render.sums().spp;
   bool finished = false;
   {
     const Interrupt interrupt;
     finished = run_reference(render, options.goal, run.lab.threads, interrupt.token());
   }
-  if (render.sums().spp > before) {
-    write_exr(files.stage(output.filename().string()), exr_of(render.sums(), program.command_line));
-    files.commit();
-  }
+  const bool kept = render.sums().spp == before || keep(render.sums(), options, program, files);
   if (!finished && render.sums().spp < 2) {
     throw Interrupted();
   }
@@ -95,7 +112,9 @@ void run_reference_command(const ReferenceOptions& options, const Program& progr
         fmt::format("interrupted; {} holds the {} spp that were done, and the same command goes on",
                     output.string(), render.sums().spp));
   }
-  print_summary(output, render, before);
+  if (kept) {
+    print_summary(output, render, before);
+  }
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::optional<CachedFile> best_cached(const std::array<std::filesystem::path, 2>
         best = CachedFile{path, std::move(*sums)};
       }
     } catch (const std::exception& error) {
-      warn("{}", error.what());
+      warn("not used, and made again: {}", error.what());
     }
   }
   return best;
@@ -61,9 +61,9 @@ std::optional<CachedFile> best_cached(const std::array<std::filesystem::path, 2>
 void cache(const ReferenceRender& render, const std::filesystem::path& path,
            const std::string& command_line) {
   try {
-    StagedFiles files(path.parent_path());
+    StagedFiles files(path.parent_path(), {path.filename().string()});
     write_exr(files.stage(path.filename().string()), exr_of(render.sums(), command_line));
-    files.commit();
+    files.commit([&] { return samples_in(path, render.sums()) <= render.sums().spp; });
   } catch (const std::exception& error) {
     warn("the reference is not cached: {}", error.what());
   }

@@ -69,8 +69,9 @@ double Reference::noise_floor(MetricId id) const {
   return metric(id).compute(off, image);
 }
 
-std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path) {
-  const ExrImage exr = read_exr(path);
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path,
+                                                const std::stop_token& stop) {
+  const ExrImage exr = read_exr(path, stop);
   Reference reference;
   if (const std::optional<ReferenceSums> sums = sums_of(exr, path)) {
     reference = reference_of(*sums);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "renderer/image/image.h"
@@ -45,8 +46,10 @@ struct Reference {
 };
 
 /// Reads a reference that ReferenceRender wrote, or any EXR with R, G and B. Throws
-/// std::runtime_error that names the path and what is wrong, also where a pixel is not finite.
-std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path);
+/// std::runtime_error that names the path and what is wrong, also where a pixel is not finite, and
+/// Cancelled soon after a stop was asked for.
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path,
+                                                const std::stop_token& stop = {});
 
 /// Throws std::runtime_error with the reason if the reference does not show what a run with these
 /// settings renders (scene, size, camera, depth), or is made of the same random numbers. Of another

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -106,6 +107,14 @@ class Header {
     return std::get<std::vector<std::uint32_t>>(channel->pixels);
   }
 
+  const std::vector<float>& numbers(const std::string& name) const {
+    const ExrChannel* channel = exr_.find(name);
+    if (channel == nullptr || !std::holds_alternative<std::vector<float>>(channel->pixels)) {
+      fail(fmt::format("it has no channel {} of numbers", name));
+    }
+    return std::get<std::vector<float>>(channel->pixels);
+  }
+
   [[noreturn]] void fail(const std::string& reason) const {
     throw std::runtime_error(
         fmt::format("{} is a damaged reference: {}; make it anew", path_.string(), reason));
@@ -159,6 +168,57 @@ std::string noise_floor_text(const Reference& reference) {
 /// The mean of what is in the film, 0 if nothing is.
 glm::vec3 pixel_mean(const glm::dvec3& sum, std::uint64_t samples, std::uint64_t rejected) {
   return samples > rejected ? glm::vec3(sum / double(samples - rejected)) : glm::vec3(0.0f);
+}
+
+/// Numbers that the work goes on with, and that no run of this program gives.
+void check_header(const Header& header, const ReferenceSums& sums, int depth) {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  if (sums.spp < 1 || sums.spp > most) {
+    header.fail(fmt::format("'spp' is {}; from 1 to {} is possible", sums.spp, most));
+  }
+  constexpr double most_seconds = 1e10;  // three centuries
+  if (!(sums.seconds >= 0.0 && sums.seconds <= most_seconds)) {
+    header.fail(
+        fmt::format("'seconds' is {}; from 0 to {} is possible", sums.seconds, most_seconds));
+  }
+  if (depth < -1) {
+    header.fail(fmt::format("'maxDepth' is {}; -1 or more is possible", depth));
+  }
+}
+
+/// Whether the header is that of these pixels: counts, sums and means of each are known twice.
+void check_pixels(const Header& header, const ReferenceSums& sums) {
+  const auto& [first, second] = sums.halves;
+  const std::array<const std::vector<float>*, 3> means{&header.numbers("R"), &header.numbers("G"),
+                                                       &header.numbers("B")};
+  const std::vector<std::uint32_t>& in_mean = header.words("SampleCount");
+  const std::vector<std::uint32_t>& rejected = header.words("Rejected");
+  for (std::size_t i = 0; i < in_mean.size(); ++i) {
+    const auto fail = [&](std::string_view reason) {
+      const std::size_t width = std::size_t(sums.settings.width);
+      header.fail(fmt::format("pixel {},{}: {}", i % width, i / width, reason));
+    };
+    const std::uint64_t left_out = std::uint64_t(first.rejected[i]) + second.rejected[i];
+    if (std::uint64_t(in_mean[i]) + rejected[i] != sums.spp) {
+      fail(fmt::format("SampleCount {} and Rejected {} are not the {} spp of its header",
+                       in_mean[i], rejected[i], sums.spp));
+    }
+    if (left_out != rejected[i] || first.rejected[i] > sums.samples_of(0) ||
+        second.rejected[i] > sums.samples_of(1)) {
+      fail(fmt::format("its halves rejected {} and {} samples, both together {}", first.rejected[i],
+                       second.rejected[i], rejected[i]));
+    }
+    const glm::vec3 mean = pixel_mean(first.sums[i] + second.sums[i], sums.spp, left_out);
+    for (int c = 0; c < 3; ++c) {
+      // Samples are neither negative nor infinite. Written so that NaN fails.
+      const bool possible = first.sums[i][c] >= 0.0 && second.sums[i][c] >= 0.0 &&
+                            std::isfinite(first.sums[i][c]) && std::isfinite(second.sums[i][c]);
+      if (!possible || !(mean[c] == (*means[std::size_t(c)])[i])) {
+        fail(fmt::format("{} is {}, and its sums make {}", kChannels[std::size_t(c)],
+                         (*means[std::size_t(c)])[i], mean[c]));
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -247,7 +307,23 @@ std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem:
   for (std::size_t half = 0; half < 2; ++half) {
     sums.halves[half] = half_of(header, half, pixels);
   }
+  check_header(header, sums, depth);
+  if (exr.data != exr.display) {
+    header.fail("its pixels are not those of its picture");
+  }
+  check_pixels(header, sums);
   return sums;
+}
+
+std::uint64_t samples_in(const std::filesystem::path& path, const ReferenceSums& like) {
+  try {
+    const std::optional<ReferenceSums> sums = sums_of(read_exr(path), path);
+    const bool same =
+        sums && sums->scene_hash == like.scene_hash && sums->settings == like.settings;
+    return same ? sums->spp : 0;
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
 }
 
 }  // namespace quartet

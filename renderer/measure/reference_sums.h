@@ -41,7 +41,12 @@ Reference reference_of(const ReferenceSums& sums);
 ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line);
 
 /// What exr_of() wrote; nothing if the picture, read from `path`, is not one of those. Throws
-/// std::runtime_error if it is, but damaged.
+/// std::runtime_error if it is, but damaged: also if header and pixels contradict each other.
 std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem::path& path);
+
+/// Samples a pixel in the reference that a file holds, if they are of the same scene, settings and
+/// random numbers as `like`: then those of the one with fewer are among those of the other. 0 if
+/// there is no such file, or if it is damaged.
+std::uint64_t samples_in(const std::filesystem::path& path, const ReferenceSums& like);
 
 }  // namespace quartet

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
+#include "renderer/cancel.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference_cache.h"
 #include "renderer/measure/reference_render.h"
@@ -43,8 +46,10 @@ class Shelf {
               const ReferenceTask::Publish& publish);
 
  private:
-  void load(const ReferenceRequest& request);
-  void prepare(const ReferenceRequest& request);
+  void load(const ReferenceRequest& request, const std::stop_token& stop);
+  void prepare(const ReferenceRequest& request, const std::stop_token& stop);
+  std::optional<ReferenceSums> cached(const std::filesystem::path& file,
+                                      const std::stop_token& stop);
   void show(const ReferenceRequest& request);
   void compute(const ReferenceRequest& request, const std::stop_token& stop,
                const ReferenceTask::Publish& publish);
@@ -75,13 +80,15 @@ void Shelf::answer(const ReferenceRequest& request, const std::stop_token& stop,
     if (!request.file.empty()) {
       status_.activity = Activity::loading;
       publish(status_);
-      load(request);
+      load(request, stop);
     } else {
-      prepare(request);
+      prepare(request, stop);
       if (making_) {
         compute(request, stop, publish);
       }
     }
+  } catch (const Cancelled&) {
+    // Another request waits, or nobody does.
   } catch (const std::exception& error) {
     status_.error = error.what();
   }
@@ -90,14 +97,31 @@ void Shelf::answer(const ReferenceRequest& request, const std::stop_token& stop,
   publish(status_);
 }
 
-void Shelf::load(const ReferenceRequest& request) {
-  std::shared_ptr<const Reference> loaded = load_reference(request.file);
+void Shelf::load(const ReferenceRequest& request, const std::stop_token& stop) {
+  std::shared_ptr<const Reference> loaded = load_reference(request.file, stop);
   check_reference(*loaded, request.scene->scene(), request.settings);
   status_.reference = std::move(loaded);
 }
 
+/// What a file of the cache holds; nothing, and a word to the user, if it is damaged.
+std::optional<ReferenceSums> Shelf::cached(const std::filesystem::path& file,
+                                           const std::stop_token& stop) {
+  std::error_code ignored;
+  if (file.empty() || !std::filesystem::exists(file, ignored)) {
+    return std::nullopt;
+  }
+  try {
+    return sums_of(read_exr(file, stop), file);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    status_.error = fmt::format("not used, and made again when asked for: {}", error.what());
+    return std::nullopt;
+  }
+}
+
 /// Takes up what was computed for this view before, in this run of the program or another.
-void Shelf::prepare(const ReferenceRequest& request) {
+void Shelf::prepare(const ReferenceRequest& request, const std::stop_token& stop) {
   const bool same_integrator = made_.settings.integrator == request.settings.integrator;
   if (!making_ || !same_view(made_, request) || !same_integrator) {
     making_.reset();
@@ -107,14 +131,13 @@ void Shelf::prepare(const ReferenceRequest& request) {
     if (!cache_.empty()) {
       file = cached_reference_path(cache_, request.scene->scene(), settings);
     }
-    std::error_code ignored;
-    const bool cached = !file.empty() && std::filesystem::exists(file, ignored);
-    if (!cached && request.spp == 0) {
+    std::optional<ReferenceSums> sums = cached(file, stop);
+    if (!sums && request.spp == 0) {
       return;
     }
     auto making =
         std::make_unique<Making>(Making{ReferenceRender(request.scene, settings), file, 0});
-    if (auto sums = cached ? sums_of(read_exr(file), file) : std::nullopt) {
+    if (sums) {
       making->render.resume(std::move(*sums), file);
       making->cached_spp = making->render.sums().spp;
       making->file_spp = making->cached_spp;
@@ -189,8 +212,10 @@ void Shelf::save() {
     StagedFiles files(making_->file.parent_path());
     write_exr(files.stage(making_->file.filename().string()),
               exr_of(making_->render.sums(), "quartet"));
-    files.commit();
-    making_->file_spp = making_->cached_spp;
+    const bool kept = files.commit([&] {
+      return samples_in(making_->file, making_->render.sums()) <= making_->render.sums().spp;
+    });
+    making_->file_spp = kept ? making_->cached_spp : 0;  // else another program's is there
   } catch (const std::exception& error) {
     status_.error = fmt::format("the reference is not cached: {}", error.what());
   }
