@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
 
+#include "app/json_text.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/metrics.h"
+#include "renderer/printable.h"
+#include "renderer/regular_file.h"
 #include "ui/lab_layout.h"
 
 namespace quartet {
@@ -16,30 +21,62 @@ namespace {
 
 using nlohmann::ordered_json;
 
-template <class Value>
-void read(const ordered_json& json, const char* name, Value& value) {
-  if (json.contains(name)) {
-    value = json.at(name).get<Value>();
-  }
-}
+constexpr std::size_t most_bytes = std::size_t(1) << 20;
+constexpr int most_levels = 16;
 
-void read_slots(const ordered_json& json, LabState& state) {
+/// Reads the file's values, and collects what is wrong with single numbers.
+class SettingsReader {
+ public:
+  template <class Value>
+  void read(const ordered_json& json, const char* name, Value& value) const {
+    if (json.contains(name)) {
+      value = json.at(name).get<Value>();
+    }
+  }
+
+  /// A number that is not in the range leaves the value as it is.
+  template <class Number>
+  void read_number(const ordered_json& json, const char* name, Number low, Number high,
+                   Number& value) {
+    if (!json.contains(name)) {
+      return;
+    }
+    const ordered_json& given = json.at(name);
+    const double number = given.is_number() ? given.get<double>() : std::nan("");
+    const bool whole = !std::is_integral_v<Number> || number == std::floor(number);
+    if (number >= double(low) && number <= double(high) && whole) {
+      value = Number(number);
+      return;
+    }
+    complaints_ += fmt::format("{}'{}' is {}; a {}number from {} to {} would be right",
+                               complaints_.empty() ? "" : ", ", name,
+                               given.is_number() ? given.dump() : "no number",
+                               std::is_integral_v<Number> ? "whole " : "", low, high);
+  }
+
+  const std::string& complaints() const { return complaints_; }
+
+ private:
+  std::string complaints_;
+};
+
+void read_slots(const ordered_json& json, LabState& state, SettingsReader& reader) {
   for (std::size_t lane = 0; lane < std::min(json.size(), lane_count); ++lane) {
     for (std::size_t slot = 0; slot < std::min<std::size_t>(json[lane].size(), 2); ++slot) {
       const ordered_json& entry = json[lane][slot];
       SlotChoice& choice = state.slots[lane][slot];
       choice.kind = find_view(entry.at("view").get<std::string>()).key;
-      choice.other = std::min(entry.value("other", std::size_t(0)), lane_count - 1);
+      choice.other = 0;
+      reader.read_number(entry, "other", std::size_t(0), lane_count - 1, choice.other);
     }
   }
 }
 
-void read_dock(const ordered_json& json, DockState& dock) {
+void read_dock(const ordered_json& json, DockState& dock, SettingsReader& reader) {
   if (json.contains("open")) {
     dock.open = json.at("open").get<bool>();
   }
-  read(json, "height", dock.height);
-  dock.height = std::clamp(dock.height, 0.0f, 4096.0f);
+  reader.read_number(json, "height", 0.0f, 4096.0f, dock.height);
   if (json.contains("against")) {
     dock.effort = find_effort(json.at("against").get<std::string>()).key;
   }
@@ -55,17 +92,18 @@ ordered_json dock_json(const DockState& dock) {
   return json;
 }
 
-void read_all(const ordered_json& json, LabState& state, WindowMemory& memory) {
-  read(json, "width", memory.width);
-  read(json, "height", memory.height);
-  memory.width = std::clamp(memory.width, 960, 16384);
-  memory.height = std::clamp(memory.height, 600, 16384);
-  read(json, "ui_scale", state.ui_scale);
-  if (!(state.ui_scale == 0.0f || (state.ui_scale >= 0.5f && state.ui_scale <= 8.0f))) {
-    state.ui_scale = 0.0f;
+void read_all(const ordered_json& json, LabState& state, WindowMemory& memory,
+              SettingsReader& reader) {
+  if (!json.is_object()) {
+    throw std::runtime_error("names with values, as the window writes them, would be right");
   }
-  read(json, "scene", state.scene);
-  read(json, "exposure", state.view.exposure);
+  reader.read_number(json, "width", 960, 16384, memory.width);
+  reader.read_number(json, "height", 600, 16384, memory.height);
+  if (json.value("ui_scale", ordered_json()) != 0) {  // the monitor's
+    reader.read_number(json, "ui_scale", 0.5f, 8.0f, state.ui_scale);
+  }
+  reader.read(json, "scene", state.scene);
+  reader.read_number(json, "exposure", -64.0f, 64.0f, state.view.exposure);
   if (json.contains("tone_map")) {
     state.view.tone_map = find_tone_map(json.at("tone_map").get<std::string>()).key;
   }
@@ -74,16 +112,27 @@ void read_all(const ordered_json& json, LabState& state, WindowMemory& memory) {
   if (json.contains("layout")) {
     state.layout = find_layout(json.at("layout").get<std::string>()).key;
   }
-  read(json, "export_folder", state.export_form.folder);
+  reader.read(json, "export_folder", state.export_form.folder);
   if (json.contains("metric")) {
     state.request.metric = find_metric(json.at("metric").get<std::string>()).key;
   }
   if (json.contains("dock")) {
-    read_dock(json.at("dock"), state.dock);
+    read_dock(json.at("dock"), state.dock, reader);
   }
   if (json.contains("slots")) {
-    read_slots(json.at("slots"), state);
+    read_slots(json.at("slots"), state, reader);
   }
+}
+
+ordered_json parsed(const std::string& text) {
+  const ordered_json::parser_callback_t shallow = [](int level, ordered_json::parse_event_t,
+                                                     ordered_json&) {
+    if (level > most_levels) {
+      throw std::runtime_error(fmt::format("it is more than {} levels deep", most_levels));
+    }
+    return true;
+  };
+  return ordered_json::parse(text, shallow);
 }
 
 }  // namespace
@@ -101,21 +150,25 @@ std::filesystem::path config_path() {
 }
 
 std::string load_config(const std::filesystem::path& path, LabState& state, WindowMemory& memory) {
-  std::ifstream file(path);
-  if (!file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
     return "";
   }
-  // All or nothing: half of a broken file would be a state that nobody chose.
+  // All or nothing: half of a broken file would be a state that nobody chose. A number out of range
+  // alone leaves the others as they were chosen.
   LabState read_state = state;
   WindowMemory read_memory = memory;
+  SettingsReader reader;
   try {
-    read_all(ordered_json::parse(file), read_state, read_memory);
+    read_all(parsed(read_regular_file(path, most_bytes)), read_state, read_memory, reader);
   } catch (const std::exception& error) {
-    return fmt::format("{}: not used: {}", path.string(), error.what());
+    return printable(fmt::format("{}: not used: {}", path.string(), error.what()));
   }
   state = std::move(read_state);
   memory = read_memory;
-  return "";
+  return reader.complaints().empty()
+             ? ""
+             : printable(fmt::format("{}: not used: {}", path.string(), reader.complaints()));
 }
 
 void save_config(const std::filesystem::path& path, const LabState& state,
@@ -140,7 +193,7 @@ void save_config(const std::filesystem::path& path, const LabState& state,
     json["slots"].push_back(std::move(lane));
   }
   StagedFiles files(path.parent_path());
-  files.write(path.filename().string(), json.dump(2) + "\n");
+  files.write(path.filename().string(), json_text(json) + "\n");
   files.commit();
 }
 

@@ -18,8 +18,10 @@ struct WindowMemory {
 /// is neither.
 std::filesystem::path config_path();
 
-/// What the file says replaces what the state says; a missing file changes nothing. Returns what is
-/// wrong with one that cannot be read, else an empty text.
+/// What the file says replaces what the state says; a missing file changes nothing. Returns what of
+/// the file was not used and why, in one line, else an empty text: all of one that is no regular
+/// file, larger than a mebibyte, no JSON, or has words that mean nothing here; else single numbers
+/// that are out of range.
 std::string load_config(const std::filesystem::path& path, LabState& state, WindowMemory& memory);
 
 /// Throws std::runtime_error.
