@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
+#include "renderer/image/exr.h"
 #include "renderer/measure/interval.h"
 
 namespace quartet {
@@ -56,6 +57,8 @@ void run_bias(const BiasOptions& options, const Program& program) {
   }
   check_seeds(options.run, options.seeds);
   const Run run = prepare_run(options.run, 2 * policies.size());
+  // R, G and B, and two for each policy and mode.
+  check_exr_size(run.settings.width, run.settings.height, 3 + 4 * policies.size());
   StagedFiles files(options.out);
   std::vector<BiasRuns> all;
   {

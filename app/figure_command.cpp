@@ -11,6 +11,7 @@
 #include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/stop_options.h"
+#include "renderer/image/lane_exr.h"
 #include "renderer/image/staged_files.h"
 
 namespace quartet {
@@ -52,6 +53,7 @@ void run_figure(const FigureOptions& options, const Program& program) {
   const ViewSettings view = view_settings(options.view);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
   Run run = prepare_run(options.run, policies.size());
+  check_exr_size(run.settings.width, run.settings.height, lane_exr_channels);
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(policies, reference);
   StagedFiles files(options.out);

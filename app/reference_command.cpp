@@ -30,6 +30,7 @@ void check_size(const RenderSettings& settings) {
                     "pixels are possible",
                     settings.width, settings.height));
   }
+  check_exr_size(settings.width, settings.height, 19);
 }
 
 /// Goes on with the file, if there is one.

@@ -82,6 +82,9 @@ void run_render(const RenderOptions& options, const Program& program) {
   const SamplingPolicy policy = render_policy(options);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
   Run run = prepare_run(options.run, 1);
+  if (output.extension() == ".exr") {
+    check_exr_size(run.settings.width, run.settings.height, lane_exr_channels);
+  }
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(std::span(&policy, 1), reference);
   StagedFiles files(output.parent_path(), {output.filename().string()});

@@ -1,6 +1,11 @@
 #include "app/config_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/image/temp_folder.h"
 
@@ -51,11 +56,70 @@ TEST(ConfigFile, ABrokenOneIsNamedAndNotUsed) {
     load_config(path, state, memory);
     EXPECT_EQ(state.scene, LabState().scene) << text;
   }
+  const std::string deep = R"({"scene": "x", "slots": )" + std::string(100'000, '[');
+  for (const std::string& text :
+       {deep, std::string(2 << 20, ' '), std::string("{\"scene\": \"\x1b\"}")}) {
+    write_bytes_to(path, text);
+    LabState state = initial_state();
+    WindowMemory memory;
+    const std::string complaint = load_config(path, state, memory);
+    EXPECT_NE(complaint.find("settings.json"), std::string::npos);
+    EXPECT_EQ(complaint.find('\x1b'), std::string::npos) << complaint;
+    EXPECT_EQ(state.scene, LabState().scene);
+  }
   LabState state = initial_state();
   WindowMemory memory;
+  std::filesystem::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_NE(load_config(path, state, memory).find("pipe"), std::string::npos);
+  std::filesystem::remove(path);
   write_bytes_to(path, "{");
   EXPECT_NE(load_config(path, state, memory).find("settings.json"), std::string::npos);
   EXPECT_EQ(load_config(folder / "missing.json", state, memory), "");
+}
+
+TEST(ConfigFile, NumbersOutOfRangeAreNamedAndTheRestIsUsed) {
+  const TempFolder folder;
+  const std::filesystem::path path = folder / "settings.json";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {R"("width": 99999999999999999999)", "'width'"},
+      {R"("width": 3000000000)", "'width' is 3000000000; a whole number from 960 to 16384"},
+      {R"("width": -1)", "'width' is -1"},
+      {R"("width": 1000.5)", "'width' is 1000.5"},
+      {R"("height": "tall")", "'height' is no number; a whole number from 600 to 16384"},
+      {R"("ui_scale": 1e30)", "'ui_scale' is 1e+30; a number from 0.5 to 8"},
+      {R"("ui_scale": -1)", "'ui_scale' is -1"},
+      {R"("exposure": 1e39)", "'exposure'"},
+      {R"("exposure": null)", "'exposure' is no number"},
+      {R"("dock": {"height": -3})", "'height' is -3; a number from 0 to 4096"},
+      {R"("slots": [[{"view": "image", "other": -1}]])", "'other' is -1"},
+      {R"("slots": [[{"view": "image", "other": 18446744073709551615}]])", "'other'"}};
+  for (const auto& [text, complaint] : cases) {
+    write_bytes_to(path, "{" + text + R"(, "scene": "veach-plates"})");
+    LabState state = initial_state();
+    const LabState before = state;
+    WindowMemory memory;
+    const std::string said = load_config(path, state, memory);
+    EXPECT_NE(said.find(complaint), std::string::npos) << text << ": " << said;
+    EXPECT_EQ(state.scene, "veach-plates") << text;
+    EXPECT_EQ(memory.width, WindowMemory().width);
+    EXPECT_EQ(memory.height, WindowMemory().height);
+    EXPECT_EQ(state.ui_scale, before.ui_scale);
+    EXPECT_EQ(state.view, before.view);
+    EXPECT_EQ(state.dock.height, before.dock.height);
+    EXPECT_EQ(state.slots[0][0].other, 0u);
+  }
+}
+
+TEST(ConfigFile, PathsOfAnyBytesCanBeSaved) {
+  const TempFolder folder;
+  LabState state = initial_state();
+  state.scene = "caf\xe9.xml";
+  save_config(folder / "settings.json", state, {});
+  LabState read = initial_state();
+  WindowMemory memory;
+  EXPECT_EQ(load_config(folder / "settings.json", read, memory), "");
+  EXPECT_EQ(read.scene, "caf\uFFFD.xml");
 }
 
 }  // namespace

@@ -149,6 +149,42 @@ TEST(ReferenceTaskThreads, WaitsWhileSomebodyIsBusyAndStopsWhenAsked) {
   EXPECT_LT(stopped.reference->spp, 1u << 20);
 }
 
+TEST(ReferenceTaskThreads, ADamagedFileOfTheCacheIsToldAndMadeAgain) {
+  const TempFolder folder;
+  const std::filesystem::path file =
+      cached_reference_path(folder.path(), scene()->scene(), request_for(0).settings);
+  write_bytes_to(file, "damaged");
+  ReferenceTask task(reference_work(folder.path(), never));
+  EXPECT_NE(answer(task, request_for(0)).error.find(file.filename().string()), std::string::npos);
+  const ReferenceStatus made = answer(task, request_for(32));
+  ASSERT_TRUE(made.reference);
+  EXPECT_EQ(made.reference->image, rendered(32));
+  EXPECT_EQ(load_reference(file)->spp, 32u);
+}
+
+TEST(ReferenceTaskThreads, ACacheThatHasMoreByNowKeepsIt) {
+  const TempFolder folder;
+  RenderSettings settings = request_for(0).settings;
+  settings.seed = reference_seed;
+  const std::filesystem::path file =
+      cached_reference_path(folder.path(), scene()->scene(), settings);
+  // Another program finishes first, while this one computes.
+  ReferenceRender other(scene(), settings);
+  other.add(100);
+  std::atomic<bool> there = false;
+  ReferenceTask task(reference_work(folder.path(), [&] {
+    if (!there.exchange(true)) {
+      write_exr(file, exr_of(other.sums(), "quartet"));
+    }
+    return false;
+  }));
+  const ReferenceStatus made = answer(task, request_for(32));
+  ASSERT_TRUE(made.reference);
+  EXPECT_EQ(made.reference->spp, 32u);
+  EXPECT_EQ(made.error, "");
+  EXPECT_EQ(load_reference(file)->spp, 100u);
+}
+
 TEST(ReferenceTaskThreads, AFolderThatCannotBeWrittenIsNamed) {
   const TempFolder folder;
   write_bytes_to(folder / "file", "");

@@ -347,6 +347,14 @@ TEST(Reference, DamageInItsHeaderIsFound) {
                                                                   {"camera", "origin 1 2"},
                                                                   {"integrator", "magic"},
                                                                   {"maxDepth", ""},
+                                                                  {"maxDepth", "-7"},
+                                                                  {"spp", "1"},
+                                                                  {"spp", "0"},
+                                                                  {"spp", "99999999999"},
+                                                                  {"seconds", "nan"},
+                                                                  {"seconds", "inf"},
+                                                                  {"seconds", "1e300"},
+                                                                  {"seconds", "-1"},
                                                                   {"seed", "-1"}}) {
     ExrImage bad = good;
     bad.attributes[name] = text;
@@ -358,6 +366,67 @@ TEST(Reference, DamageInItsHeaderIsFound) {
   ExrImage bad = good;
   std::erase_if(bad.channels, [](const ExrChannel& c) { return c.name == "Half1.G.low"; });
   EXPECT_NE(error_of([&] { sums_of(bad, "x.exr"); }).find("Half1.G.low"), std::string::npos);
+}
+
+TEST(Reference, PixelsMustBeThoseOfTheirSumsAndCounts) {
+  ReferenceRender render(box(), settings());
+  render.add(3);
+  const ExrImage good = exr_of(render.sums(), "quartet");
+  EXPECT_EQ(error_of([&] { sums_of(good, "x.exr"); }), "");
+  const auto word = [](ExrImage& exr, const char* name) -> std::uint32_t& {
+    return std::get<std::vector<std::uint32_t>>(
+        const_cast<ExrChannel*>(exr.find(name))->pixels)[37];
+  };
+  const std::vector<std::function<void(ExrImage&)>> damages{
+      [&](ExrImage& e) { ++word(e, "SampleCount"); },
+      [&](ExrImage& e) { --word(e, "SampleCount"), ++word(e, "Rejected"); },
+      [&](ExrImage& e) { ++word(e, "Half0.Rejected"); },
+      [&](ExrImage& e) {
+        // More than the half has samples.
+        word(e, "Half1.Rejected") = 2;
+        word(e, "Rejected") = 2;
+        word(e, "SampleCount") = 1;
+      },
+      [&](ExrImage& e) { word(e, "Half0.R.high") += 1u << 20; },    // twice the sum
+      [&](ExrImage& e) { word(e, "Half1.G.high") ^= 1u << 31; },    // negative
+      [&](ExrImage& e) { word(e, "Half0.B.high") = 0x7ff00000u; },  // infinite
+      [&](ExrImage& e) { word(e, "Half0.B.high") = 0x7ff80000u; },  // no number
+      [&](ExrImage& e) {
+        std::get<std::vector<float>>(const_cast<ExrChannel*>(e.find("G"))->pixels)[37] += 0.5f;
+      },
+      [&](ExrImage& e) { e.display.width -= 1; }};
+  for (std::size_t i = 0; i < damages.size(); ++i) {
+    ExrImage bad = good;
+    damages[i](bad);
+    EXPECT_NE(error_of([&] { sums_of(bad, "x.exr"); }).find("x.exr is a damaged reference"),
+              std::string::npos)
+        << i;
+  }
+}
+
+TEST(Reference, OfTwoWritersTheOneWithMoreSamplesStays) {
+  const TempFolder folder;
+  const std::filesystem::path path = folder / "ref.exr";
+  ReferenceRender few(box(), settings());
+  few.add(2);
+  EXPECT_EQ(samples_in(path, few.sums()), 0u);
+  write_exr(path, exr_of(few.sums(), "quartet"));
+  EXPECT_EQ(samples_in(path, few.sums()), 2u);
+  ReferenceRender more(box(), settings());
+  more.add(5);
+  EXPECT_EQ(samples_in(path, more.sums()), 2u);
+  ReferenceSums other = more.sums();
+  other.settings.seed += 1;
+  EXPECT_EQ(samples_in(path, other), 0u);
+  other = more.sums();
+  other.scene_hash = "another";
+  EXPECT_EQ(samples_in(path, other), 0u);
+  ExrImage damaged = exr_of(more.sums(), "quartet");
+  damaged.attributes["spp"] = "1000";
+  write_exr(path, damaged);
+  EXPECT_EQ(samples_in(path, few.sums()), 0u);
+  write_bytes_to(path, "no picture");
+  EXPECT_EQ(samples_in(path, few.sums()), 0u);
 }
 
 TEST(SceneHash, IsOfWhatIsRendered) {
