@@ -76,8 +76,72 @@ struct ExrPart {
   CompressionLimits compression = compression_limits.front();
   std::optional<ExrTiles> tiles;
   std::uint64_t chunks = 0;  ///< as it is given; 0 if it is not
+  bool deep = false;         ///< any number of values a pixel
   bool empty = true;         ///< no attribute at all: the end of the headers
 };
+
+/// Values that OpenEXR reads as so many bytes, whatever the header says: a header that says
+/// otherwise would be another one to OpenEXR than it is here.
+struct FixedSize {
+  std::string_view type;
+  std::int32_t bytes;
+};
+
+constexpr std::array<FixedSize, 24> fixed_sizes{{
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+}};
+
+void check_size(FileReader& file, std::string_view name, std::string_view type, std::int32_t size) {
+  if (size < 0 || std::uint64_t(size) > file.left()) {
+    refuse_header(fmt::format("attribute '{}' in its header claims {} bytes, and {} follow", name,
+                              size, file.left()));
+  }
+  const auto* const fixed = std::ranges::find(fixed_sizes, type, &FixedSize::type);
+  const std::int32_t right = fixed != fixed_sizes.end() ? fixed->bytes
+                             : type == "floatvector"    ? size / 4 * 4
+                                                        : size;
+  if (size != right) {
+    refuse_header(
+        fmt::format("attribute '{}' in its header has {} bytes; {} would be right for a "
+                    "{}",
+                    name, size, right, type));
+  }
+}
+
+/// Texts with their lengths, which must end where the attribute does.
+void check_texts(FileReader& file, std::string_view name, std::uint64_t end) {
+  while (file.position() < end) {
+    const auto length = read_word<std::int32_t>(file);
+    if (length < 0 || std::uint64_t(length) > end - std::min(end, file.position())) {
+      refuse_header(
+          fmt::format("attribute '{}' in its header holds a text of {} bytes", name, length));
+    }
+    file.seek(file.position() + std::uint64_t(length));
+  }
+}
 
 void read_channels(FileReader& file, std::uint64_t end, ExrPart& part) {
   while (file.position() < end && !read_name(file).empty()) {
@@ -85,6 +149,9 @@ void read_channels(FileReader& file, std::uint64_t end, ExrPart& part) {
     ++part.channels;
     part.pixel_bytes += type == 1 ? 2 : 4;  // half, else float or uint
     file.seek(file.position() + 12);        // how it is seen, and sampling
+  }
+  if (file.position() != end) {
+    refuse_header("its list of channels does not end where it should");
   }
 }
 
@@ -106,6 +173,10 @@ void read_value(FileReader& file, std::string_view name, std::uint64_t end, ExrP
     part.tiles.emplace();
     part.tiles->width = read_word<std::uint32_t>(file);
     part.tiles->height = read_word<std::uint32_t>(file);
+  } else if (name == "type") {
+    std::string kind(std::size_t(end - file.position()), '\0');
+    file.read(kind.data(), kind.size());
+    part.deep = kind.starts_with("deep");
   } else if (name == "chunkCount") {
     part.chunks = std::uint64_t(std::max(0, read_word<std::int32_t>(file)));
   }
@@ -115,13 +186,15 @@ ExrPart read_part(FileReader& file) {
   ExrPart part;
   for (std::string name = read_name(file); !name.empty(); name = read_name(file)) {
     part.empty = false;
-    read_name(file);  // the type
+    const std::string type = read_name(file);
     const auto size = read_word<std::int32_t>(file);
-    if (size < 0 || std::uint64_t(size) > file.left()) {
-      refuse_header(fmt::format("attribute '{}' in its header claims {} bytes, and {} follow", name,
-                                size, file.left()));
+    check_size(file, name, type, size);
+    const std::uint64_t begin = file.position();
+    const std::uint64_t end = begin + std::uint64_t(size);
+    if (type == "stringvector") {
+      check_texts(file, name, end);
+      file.seek(begin);
     }
-    const std::uint64_t end = file.position() + std::uint64_t(size);
     read_value(file, name, end, part);
     file.seek(end);
   }
@@ -140,6 +213,11 @@ std::uint64_t pieces(const ExrPart& part) {
           ? divided_up(part.width, part.tiles->width) * divided_up(part.height, part.tiles->height)
           : divided_up(part.height, std::uint64_t(part.compression.lines));
   return std::max(counted, part.chunks);
+}
+
+std::uint64_t block_bytes(const ExrPart& part) {
+  return part.tiles ? part.pixel_bytes * part.tiles->width * part.tiles->height
+                    : part.pixel_bytes * std::uint64_t(part.width * part.compression.lines);
 }
 
 /// Sizes that OpenEXR itself refuses are left to it.
@@ -165,8 +243,7 @@ void check_pixels(const ExrPart& part, std::uint64_t bytes) {
   }
   if (part.tiles) {
     const auto [width, height] = *part.tiles;
-    if (width > max_exr_side || height > max_exr_side ||
-        part.pixel_bytes * width * height > max_tile_bytes) {
+    if (width > max_exr_side || height > max_exr_side || block_bytes(part) > max_tile_bytes) {
       refuse_header(fmt::format("tiles of {}x{} pixels are too large; up to {} MB would be right",
                                 width, height, max_tile_bytes >> 20));
     }
@@ -175,12 +252,12 @@ void check_pixels(const ExrPart& part, std::uint64_t bytes) {
 
 }  // namespace
 
-void check_exr_headers(FileReader& file) {
+std::uint64_t check_exr_headers(FileReader& file) {
   constexpr std::uint32_t exr_magic = 20000630;
   constexpr std::uint32_t multi_part = 0x1000;
   file.seek(0);
   if (file.size() < 8 || read_word<std::uint32_t>(file) != exr_magic) {
-    return;
+    return 0;
   }
   const bool several = (read_word<std::uint32_t>(file) & multi_part) != 0;
   const ExrPart first = read_part(file);
@@ -191,6 +268,9 @@ void check_exr_headers(FileReader& file) {
     table += is_sane(next) ? pieces(next) : next.chunks;
   }
   const std::uint64_t bytes = file.left();
+  if (first.deep) {
+    refuse_header("its pixels are deep; one value a channel and pixel would be right");
+  }
   if (is_sane(first)) {
     check_pixels(first, bytes);
   }
@@ -201,6 +281,7 @@ void check_exr_headers(FileReader& file) {
                     "damaged",
                     table, bytes));
   }
+  return is_sane(first) ? block_bytes(first) : 0;
 }
 
 std::string text_of(const ExrWindow& window) {

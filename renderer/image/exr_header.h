@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "renderer/file_reader.h"
@@ -14,9 +16,10 @@ inline constexpr std::size_t max_exr_numbers = std::size_t(1) << 28;  // 1 GB
 
 /// Looks at the headers of a file before OpenEXR does, which takes whatever memory they ask for:
 /// no attribute may claim more bytes than follow, no picture more pixels than its compression could
-/// get into the file, no table more entries. Throws std::runtime_error that says what is wrong.
-/// What is no EXR at all, and all else, is left for OpenEXR to judge.
-void check_exr_headers(FileReader& file);
+/// get into the file, no table more entries. Returns the bytes of a block of the first part, which
+/// is what OpenEXR decompresses at once. Throws std::runtime_error that says what is wrong. What is
+/// no EXR at all, and all else, is left for OpenEXR to judge.
+std::uint64_t check_exr_headers(FileReader& file);
 
 /// "640x480 at (0, 0)".
 std::string text_of(const ExrWindow& window);

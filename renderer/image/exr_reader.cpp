@@ -91,15 +91,16 @@ void read_pixels(Imf::InputFile& file, ExrImage& image, const std::stop_token& s
 }
 
 ExrImage read_checked(FileReader& file, const std::string& name, const std::stop_token& stop) {
-  check_exr_headers(file);
+  const std::uint64_t block = check_exr_headers(file);
   file.seek(0);
   // OpenEXR checks the windows against this before it takes memory for them.
   static const bool limited = (Imf::Header::setMaxImageSize(max_exr_side, max_exr_side), true);
   static_cast<void>(limited);
   ExrSource source(file, name);
-  // Each thread has two blocks or rows of tiles in memory.
-  constexpr int most_threads = 8;
-  Imf::InputFile input(source, std::min(exr_threads(), most_threads));
+  // Each thread has two blocks in memory.
+  constexpr std::uint64_t most_bytes = std::uint64_t(1) << 27;
+  const std::uint64_t threads = most_bytes / 2 / std::max<std::uint64_t>(block, 1);
+  Imf::InputFile input(source, int(std::min(std::uint64_t(exr_threads()), threads)));
   const Imf::Header& header = input.header();
   ExrImage image;
   image.data = window_of(header.dataWindow());

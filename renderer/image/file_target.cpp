@@ -97,7 +97,8 @@ void make_durable(const fs::path& temporary, const fs::path& final) {
         static_cast<void>(::fchown(opened.file(), uid_t(-1), old.st_gid) == 0);
       }
     }
-    if (::fchmod(opened.file(), old.st_mode & 0777) != 0) {
+    // Not asked of disks that have no permissions and would refuse.
+    if (old.st_mode != made.st_mode && ::fchmod(opened.file(), old.st_mode & 0777) != 0) {
       refuse_target(final, errno_text(errno));
     }
   }

@@ -73,6 +73,16 @@ TEST(ExrHeader, AttributesMayNotClaimMoreThanFollows) {
                  "attribute 'comment' in its header claims 2147483647 bytes, and 16 follow");
   const std::string negative = std::string("comment") + '\0' + "opaque" + '\0' + word(-5);
   expect_refused(file_of(plain, header(4, 4, 3, negative), 16), "claims -5 bytes");
+  // OpenEXR would read 4 bytes and take what follows for more of the header.
+  const std::string hidden = attribute("zoom", "float", std::string(40, '\0'));
+  expect_refused(file_of(plain, header(4, 4, 3, hidden), 16),
+                 "'zoom' in its header has 40 bytes; 4 would be right for a float");
+  const std::string texts = attribute("views", "stringvector", word(3) + "abc" + word(1 << 30));
+  expect_refused(file_of(plain, header(4, 4, 3, texts), 16), "holds a text of 1073741824 bytes");
+  const std::string channels = attribute("channels", "chlist", std::string("Y", 2) + word(2));
+  expect_refused(file_of(plain, header(4, 4, 3, channels), 16), "does not end where it should");
+  const std::string deep = attribute("type", "string", "deepscanline");
+  expect_refused(file_of(plain, header(4, 4, 3, deep) + '\0', 16), "its pixels are deep");
   expect_refused(file_of(plain, header(4, 4, 3, std::string(300, 'n')), 16), "more than 255 bytes");
   expect_refused(file_of(plain, header(4, 4, 3), 0), "it ends too early");
 }
