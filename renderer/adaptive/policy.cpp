@@ -226,15 +226,19 @@ void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& p
   });
 }
 
+constexpr AllocationFields votes{.multiplier = true};
+constexpr AllocationFields batches{.first = true, .batch = true};
+
 constexpr std::array allocation_table{
-    AllocationRow{AllocationId::vote, "vote", "vote", "the 2021 course report", plan_vote},
+    AllocationRow{AllocationId::vote, "vote", "vote", "the 2021 course report", votes, plan_vote},
     AllocationRow{AllocationId::two_level, "two-level", "two-level",
-                  "Mitchell 1987: 1 sample everywhere, then once 8 more", plan_two_level},
+                  "Mitchell 1987: 1 sample everywhere, then once 8 more", batches, plan_two_level},
     AllocationRow{AllocationId::batch, "batch", "batch",
-                  "Rigau, Feixas and Sbert 2003: 8 everywhere, then 8 more until done", plan_batch},
+                  "Rigau, Feixas and Sbert 2003: 8 everywhere, then 8 more until done", batches,
+                  plan_batch},
     AllocationRow{AllocationId::converge, "converge", "converge",
                   "production renderers: 16 everywhere, then 8 more around each pixel not done",
-                  plan_converge},
+                  batches, plan_converge},
 };
 
 constexpr std::array use_table{
@@ -273,6 +277,11 @@ const AllocationRow& allocation(AllocationId key) {
 
 const AllocationRow& find_allocation(std::string_view id) {
   return find_row(allocations(), id, "policy");
+}
+
+AllocationFields fields_read(const SamplingPolicy& policy) {
+  return estimator(policy.estimator).channels == 0 ? AllocationFields{}
+                                                   : allocation(policy.allocation.kind).reads;
 }
 
 std::span<const SampleUseRow> sample_uses() {

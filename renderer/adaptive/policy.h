@@ -41,10 +41,13 @@ struct SamplingPolicy {
   EstimatorId estimator = EstimatorId::contrast;
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
   Allocation allocation;
-  std::uint32_t max_spp = 1u << 16;
+  std::uint32_t max_spp = 1u << 16;  ///< at most most_spp
   SampleUse use = SampleUse::reuse;
   bool operator==(const SamplingPolicy&) const = default;
 };
+
+/// More samples than this no pixel can have: indices of samples are also counted with a sign.
+inline constexpr std::uint32_t most_spp = (1u << 31) - 1;
 
 /// The policy with an estimator's default thresholds and allocation.
 SamplingPolicy default_policy(EstimatorId estimator);
@@ -70,12 +73,21 @@ struct Plan {
 /// Samples below which no pixel is done, whatever its error: as the estimator has it.
 std::uint32_t minimum_samples(const SamplingPolicy& policy);
 
+/// Which fields of an Allocation an allocation reads.
+struct AllocationFields {
+  bool first = false;
+  bool batch = false;
+  bool multiplier = false;  ///< and its stochastic rounding
+  bool operator==(const AllocationFields&) const = default;
+};
+
 /// One row of the table of allocations.
 struct AllocationRow {
   AllocationId key;
   std::string_view id;
   std::string_view label;
   std::string_view source;
+  AllocationFields reads;
   void (*plan)(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
 };
 
@@ -83,6 +95,10 @@ std::span<const AllocationRow> allocations();
 const AllocationRow& allocation(AllocationId key);
 /// Throws std::invalid_argument that lists the legal ids.
 const AllocationRow& find_allocation(std::string_view id);
+
+/// What is read of a policy's allocation: nothing under an estimator without an error, which has
+/// nothing to choose by.
+AllocationFields fields_read(const SamplingPolicy& policy);
 
 /// One row of the table of what the samples that decide are used for.
 struct SampleUseRow {

@@ -202,6 +202,34 @@ TEST(Tables, WithoutAnErrorAllPixelsAreAlikeUnderEachAllocation) {
   }
 }
 
+TEST(Tables, AnAllocationReadsTheFieldsThatItsRowSays) {
+  for (const AllocationRow& row : allocations()) {
+    SamplingPolicy policy = default_policy(EstimatorId::kl);
+    policy.allocation.kind = row.key;
+    Picture picture(9, 9);
+    std::fill(picture.error.begin(), picture.error.end(), 1.0f);
+    const auto plans = [&](const Allocation& allocation) {
+      SamplingPolicy other = policy;
+      other.allocation = allocation;
+      return std::pair(picture.plan(other, 0).wanted, picture.plan(other, 1).wanted);
+    };
+    const auto usual = plans(policy.allocation);
+    const auto changes = [&](auto set) {
+      Allocation other = policy.allocation;
+      set(other);
+      return plans(other) != usual;
+    };
+    SCOPED_TRACE(row.id);
+    EXPECT_EQ(changes([](Allocation& other) { other.first = 5; }), row.reads.first);
+    EXPECT_EQ(changes([](Allocation& other) { other.batch = 5; }), row.reads.batch);
+    EXPECT_EQ(changes([](Allocation& other) { other.multiplier = 0.3f; }), row.reads.multiplier);
+    EXPECT_EQ(changes([](Allocation& other) { other.stochastic_rounding = true; }),
+              row.reads.multiplier);
+    policy.estimator = EstimatorId::uniform;
+    EXPECT_EQ(fields_read(policy), AllocationFields());
+  }
+}
+
 TEST(Tables, IdsAreUniqueAndFound) {
   for (const Estimator& row : estimators()) {
     EXPECT_EQ(&find_estimator(row.id), &row);
