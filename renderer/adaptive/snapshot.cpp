@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/parallel.h"
@@ -14,6 +15,12 @@ void copy(std::span<const T> from, std::vector<T>& to) {
   to.assign(from.begin(), from.end());
 }
 
+/// The square of a large radiance can be more than a float holds: then the largest, as infinity
+/// would say that something went wrong.
+float as_float(double number) {
+  return float(std::min(number, double(std::numeric_limits<float>::max())));
+}
+
 void copy_variance(const Film& film, std::vector<float>& variance) {
   if (!film.statistics().variance) {
     variance.clear();
@@ -23,9 +30,9 @@ void copy_variance(const Film& film, std::vector<float>& variance) {
   variance.resize(3 * pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     const glm::dvec3 of_mean = film.variance_of_mean(i);
-    variance[i] = float(of_mean.x);
-    variance[pixels + i] = float(of_mean.y);
-    variance[2 * pixels + i] = float(of_mean.z);
+    variance[i] = as_float(of_mean.x);
+    variance[pixels + i] = as_float(of_mean.y);
+    variance[2 * pixels + i] = as_float(of_mean.z);
   }
 }
 

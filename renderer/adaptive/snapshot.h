@@ -24,7 +24,8 @@ struct LaneSnapshot {
   std::vector<std::uint32_t> rejected;     ///< of these, a pixel; empty if none was
   /// Raw, in the estimator's unit: its channels × pixels; empty for an estimator without one.
   std::vector<float> error;
-  /// Of the pixel mean: red, green, blue × pixels, in radiance²; empty where the films keep none.
+  /// Of the pixel mean: red, green, blue × pixels, in radiance²; the largest float where that is
+  /// less; empty where the films keep none.
   std::vector<float> variance;
   std::vector<FrameRecord> history;              ///< one a frame; back() is the current one
   std::vector<double> true_errors;               ///< one a frame; empty without a reference

@@ -18,6 +18,9 @@ namespace {
 // smaller still, is taken as 0.
 constexpr float darkest = 1e-37f;
 
+// What is brighter is taken as this: the sum of the differences of a window would leave it too.
+constexpr float brightest = 0x1p120f;
+
 // Rows handed to one thread at a time. Each piece reads the row above and the row below it too.
 constexpr std::size_t grain_rows = 16;
 
@@ -91,7 +94,7 @@ struct LuminanceRow {
     float* out = luminance.data();
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
-      out[x] = 0.2126f * r[x] + 0.7152f * g[x] + 0.0722f * b[x];
+      out[x] = std::min(brightest, 0.2126f * r[x] + 0.7152f * g[x] + 0.0722f * b[x]);
     }
     if (with_root) {
       root.resize(width);

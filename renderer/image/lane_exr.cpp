@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "renderer/image/views.h"
 #include "renderer/measure/metrics.h"
@@ -39,11 +40,21 @@ ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
     exr.add(fmt::format("Variance.{}", channel_names[c]), plane(from.variance, c));
   }
   if (snapshot.reference) {
-    const ScalarImage squared =
+    const ScalarImage map =
         metric(MetricId::mse).map(radiance_image(snapshot, lane), *snapshot.reference);
-    exr.add("SquaredError", std::vector<float>(squared.pixels().begin(), squared.pixels().end()));
+    std::vector<float> squared(map.pixels().begin(), map.pixels().end());
+    for (float& error : squared) {
+      error = std::min(error, std::numeric_limits<float>::max());
+    }
+    exr.add("SquaredError", std::move(squared));
   }
   return exr;
+}
+
+std::size_t lane_exr_channels(const SamplingPolicy& policy, bool has_reference) {
+  constexpr std::size_t radiance_counts_and_variances = 3 + 2 + 3;
+  return radiance_counts_and_variances + std::size_t(estimator(policy.estimator).channels) +
+         (has_reference ? 1 : 0);
 }
 
 }  // namespace quartet

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <random>
 
 #include "renderer/adaptive/policy.h"
@@ -106,6 +107,33 @@ TEST(Estimators, FiniteForEveryFiniteInput) {
         ASSERT_TRUE(std::isfinite(error) && error >= 0.0f) << error;
       }
     });
+  }
+}
+
+TEST(Estimators, TheBrightestPixelsAreJudged) {
+  // A pixel of the largest radiance among black ones, one of black among the largest, and noise of
+  // that size: sums of it leave the range of float.
+  constexpr float most = std::numeric_limits<float>::max();
+  const auto bright = [](auto is_bright) {
+    return SampledPicture(7, 3, 4, [&](std::size_t pixel, std::size_t i) {
+      return glm::vec3(is_bright(pixel, i) ? most : 0.0f);
+    });
+  };
+  for (const SampledPicture& picture :
+       {bright([](std::size_t pixel, std::size_t) { return pixel == 10; }),
+        bright([](std::size_t pixel, std::size_t) { return pixel != 10; }),
+        bright([](std::size_t pixel, std::size_t i) { return (pixel + i / 2) % 2 == 0; })}) {
+    each_row([&](const Estimator& row) {
+      for (const float error : picture.errors(row)) {
+        ASSERT_TRUE(std::isfinite(error) && error >= 0.0f) << error;
+      }
+    });
+  }
+  const SampledPicture alone = bright([](std::size_t pixel, std::size_t) { return pixel == 10; });
+  for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2,
+                               EstimatorId::hellinger, EstimatorId::oracle}) {
+    EXPECT_GT(alone.errors(estimator(id))[10], estimator(id).default_thresholds[0])
+        << estimator(id).id;
   }
 }
 

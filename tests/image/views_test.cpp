@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
+#include "renderer/adaptive/lab.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/pixel_values.h"
 #include "tests/image/snapshot_cases.h"
@@ -17,6 +19,32 @@ using test::blank_snapshot;
 using test::finish;
 
 constexpr std::array two{EstimatorId::contrast, EstimatorId::kl};
+
+TEST(LaneExr, NothingIsInfiniteWhereAFloatHoldsTooLittle) {
+  // Two samples of a pixel: the largest, and none.
+  constexpr float most = std::numeric_limits<float>::max();
+  const SampleSource source([](int x, int, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      radiance[i] = glm::vec3(x == 0 && (first + i) % 2 == 0 ? most : 0.0f);
+    }
+  });
+  LabOptions options;
+  options.statistics.variance = true;
+  const SamplingPolicy policy = default_policy(EstimatorId::variance);
+  Lab lab(source, 3, 2, std::span(&policy, 1), options);
+  ASSERT_TRUE(lab.run_frame());
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
+  snapshot.reference = std::make_shared<const RadianceImage>(3, 2, glm::vec3(0.0f));
+  const ExrImage exr = lane_exr(snapshot, 0);
+  for (const char* name : {"Variance.R", "Variance.B", "SquaredError", "Error.variance"}) {
+    SCOPED_TRACE(name);
+    ASSERT_NE(exr.find(name), nullptr);
+    const auto& values = std::get<std::vector<float>>(exr.find(name)->pixels);
+    EXPECT_EQ(values[0], most);
+    EXPECT_EQ(values[1], 0.0f);
+  }
+}
 
 TEST(Views, EachRowDrawsEveryPixelOfEveryLane) {
   const std::array all{EstimatorId::contrast, EstimatorId::kl, EstimatorId::uniform};
