@@ -76,6 +76,9 @@ RunPlan uniform_plan(const SweepPlan& plan) {
   if (run.stop.spp || run.stop.seconds || run.stop.error) {
     run.stop.frames.reset();
   }
+  if (run.stop.spp) {
+    run.policy.max_spp = std::max(run.policy.max_spp, std::uint32_t(std::ceil(*run.stop.spp)));
+  }
   return run;
 }
 
