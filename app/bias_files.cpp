@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/csv_field.h"
 #include "app/run_record.h"
 #include "renderer/image/exr.h"
 #include "renderer/measure/interval.h"
@@ -72,7 +73,7 @@ std::string csv_of(const BiasReport& report) {
   std::string csv(csv_header);
   for (const BiasRuns& runs : report.runs) {
     const std::string lane =
-        fmt::format("{},{},{},{},{}", report.run.scene->scene().name,
+        fmt::format("{},{},{},{},{}", csv_field(report.run.scene->scene().name),
                     estimator(runs.policy.estimator).id, allocation(runs.policy.allocation.kind).id,
                     sample_use(runs.policy.use).id, thresholds_text(runs.policy));
     const double pixels = double(runs.difference.size());

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "app/csv_field.h"
 #include "app/json_text.h"
 #include "renderer/table.h"
 
@@ -213,11 +214,12 @@ std::string claims_json(const ClaimsReport& report) {
 }
 
 std::string claims_csv(const ClaimsReport& report) {
+  const std::string scene = csv_field(report.run.scene->scene().name);
   std::string csv = "scene,criterion,region,pixels,quantity,mean,low,high\n";
   for (const Quantity& each : quantities(report)) {
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       const Interval& value = each.values[c];
-      csv += fmt::format("{},{},{},{},{},{:.9g},{:.9g},{:.9g}\n", report.run.scene->scene().name,
+      csv += fmt::format("{},{},{},{},{},{:.9g},{:.9g},{:.9g}\n", scene,
                          estimator(report_criteria[c]).id, each.region, each.pixels, each.name,
                          value.mean, value.low, value.high);
     }

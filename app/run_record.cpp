@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/csv_field.h"
 #include "app/json_text.h"
 #include "app/vector_json.h"
 #include "renderer/image/views.h"
@@ -189,12 +190,13 @@ std::string thresholds_text(const SamplingPolicy& policy) {
 
 std::string csv_record(const Snapshot& snapshot) {
   std::string csv(csv_header);
+  const std::string scene = csv_field(snapshot.scene->scene().name);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     const SamplingPolicy& policy = lane.policy;
     std::string row;
     for (const FrameRecord& record : lane.history) {
-      row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{:.6f}", snapshot.scene->scene().name,
+      row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{:.6f}", scene,
                         estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
                         sample_use(policy.use).id, thresholds_text(policy), snapshot.settings.seed,
                         record.frame, record.seconds, record.samples, mean_spp(snapshot, record));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/csv_field.h"
 #include "app/run_record.h"
 #include "renderer/measure/sweep_charts.h"
 #include "ui/chart_figure.h"
@@ -13,7 +14,7 @@ namespace quartet {
 namespace {
 
 std::string row_head(const SweepReport& report, const SamplingPolicy& policy, std::uint64_t seed) {
-  return fmt::format("{},{},{},{},{},{}", report.run.scene->scene().name,
+  return fmt::format("{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
                      estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
                      sample_use(policy.use).id, thresholds_text(policy), seed);
 }
