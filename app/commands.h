@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "app/number_option.h"
 
 namespace quartet {
 
@@ -33,18 +36,21 @@ void add_trace_command(CLI::App& app, const Program& program);
 void add_bias_command(CLI::App& app, const Program& program);
 void add_stability_command(CLI::App& app, const Program& program);
 
+/// Of text and controls, 1 as they are drawn.
+inline constexpr NumberRange<float> ui_scale_range{0.5f, 8.0f};
+
 /// The options of the window, which is what the program opens without a command.
 struct WindowOptions {
-  std::string scene;      ///< empty: the last one
-  float ui_scale = 0.0f;  ///< 0: as last time, or as the monitor says
+  std::string scene;              ///< empty: the last one
+  std::optional<float> ui_scale;  ///< none: as last time, or as the monitor says
   bool reset_settings = false;
 };
 
 /// Opens the lab window until it is closed. Without a display it says so and makes the report's
-/// figures instead.
+/// figures instead, into a folder that was not there: out, or out-2 and so on.
 void run_lab_window(const WindowOptions& options, const Program& program);
 
-/// The report's figures of a scene, the default one if none is named, into out/.
-void run_default_figure(const Program& program, const std::string& scene);
+/// The report's figures of a scene, the default one if none is named.
+void run_default_figure(const Program& program, const std::string& scene, const std::string& out);
 
 }  // namespace quartet

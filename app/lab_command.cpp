@@ -36,7 +36,7 @@ void run_window(const WindowOptions& options) {
   } else if (!can_be_found(state.scene)) {
     state.scene = LabState().scene;  // the last one was moved away
   }
-  state.ui_scale = options.ui_scale > 0.0f ? options.ui_scale : state.ui_scale;
+  state.ui_scale = options.ui_scale.value_or(state.ui_scale);
 
   Window window("Quartet", memory.width, memory.height);
   ImguiScreen screen;
@@ -74,6 +74,21 @@ void run_window(const WindowOptions& options) {
   }
 }
 
+/// The first of out, out-2, out-3, … that is not there, or empty: nobody asked for what is in one
+/// to be replaced.
+std::string unused_folder() {
+  std::string name = "out";
+  for (int i = 2;; ++i) {
+    std::error_code error;
+    if (!std::filesystem::exists(name, error) ||
+        (std::filesystem::is_directory(name, error) && std::filesystem::is_empty(name, error) &&
+         !error)) {
+      return name;
+    }
+    name = fmt::format("out-{}", i);
+  }
+}
+
 }  // namespace
 
 void run_lab_window(const WindowOptions& options, const Program& program) {
@@ -86,11 +101,12 @@ void run_lab_window(const WindowOptions& options, const Program& program) {
   try {
     run_window(options);
   } catch (const NoDisplay& error) {
+    const std::string out = unused_folder();
     tell(
         "no window: {}. Without one there are: quartet figure SCENE --out DIR, and quartet "
-        "screenshot SCENE -o LAB.png. Writing the report's figures to out/.",
-        error.what());
-    run_default_figure(program, options.scene);
+        "screenshot SCENE -o LAB.png. Writing the report's figures to {}/{}.",
+        error.what(), out, out == "out" ? "" : ", as there are files in out/ already");
+    run_default_figure(program, options.scene, out);
   }
 }
 
