@@ -7,12 +7,13 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/lane_option.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
+#include "app/output_check.h"
 #include "app/progress.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
-#include "renderer/image/exr.h"
 #include "renderer/measure/interval.h"
+#include "ui/lab_figure.h"
 
 namespace quartet {
 namespace {
@@ -45,8 +46,26 @@ void print_table(const BiasReport& report) {
   }
 }
 
+/// Both modes are run, so that choosing one would do nothing.
+void check_modes(const BiasOptions& options) {
+  for (const std::string& lane : options.lanes.lanes) {
+    if (lane.find("mode=") != std::string::npos) {
+      throw UsageError(
+          fmt::format("--lane: '{}': mode has no effect: each policy runs in both modes", lane));
+    }
+  }
+}
+
+/// Whether what will be drawn can be written, before it is measured.
+void check_bias_size(const RenderSettings& settings, std::size_t runs) {
+  const std::size_t channels = 3 + 2 * runs;  // R, G and B, and two for each run
+  check_picture_size("--size", settings.width, settings.height, "bias.exr", channels);
+  check_figure_size("--size", settings.width, settings.height, runs, false);
+}
+
 void run_bias(const BiasOptions& options, const Program& program) {
-  const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run);
+  const std::vector<SamplingPolicy> policies =
+      policies_of(options.lanes, options.run.policy, {.frames = options.frames});
   for (const SamplingPolicy& policy : policies) {
     if (const Estimator& row = estimator(policy.estimator); row.needs_reference) {
       throw UsageError(fmt::format(
@@ -55,11 +74,11 @@ void run_bias(const BiasOptions& options, const Program& program) {
           row.id));
     }
   }
+  check_modes(options);
   check_seeds(options.run, options.seeds);
   const Run run = prepare_run(options.run, 2 * policies.size());
-  // R, G and B, and two for each policy and mode.
-  check_exr_size(run.settings.width, run.settings.height, 3 + 4 * policies.size());
-  StagedFiles files(options.out);
+  check_bias_size(run.settings, 2 * policies.size());
+  StagedFiles files(options.out, bias_file_names());
   std::vector<BiasRuns> all;
   {
     const Interrupt interrupt;
@@ -92,16 +111,14 @@ void add_bias_command(CLI::App& app, const Program& program) {
       "bias", "How far off adaptive pictures are on average, and what it costs to be right");
   const auto options = std::make_shared<BiasOptions>();
   add_run_options(*command, options->run);
+  command->remove_option(command->get_option("--mode"));  // it runs both
   add_lane_options(*command, options->lanes);
-  command->add_option("--frames", options->frames, "Rounds of sampling of each run")
-      ->check(CLI::Range(1u, 1'000'000u))
-      ->capture_default_str();
+  add_number(*command, "--frames", options->frames, {1, 1'000'000},
+             "Rounds of sampling of each run");
   add_seeds_option(*command, options->seeds, 2);
-  command
-      ->add_option("--confidence", options->confidence, "Of all intervals together, such as 0.99")
-      ->check(number_between(0.5, 0.999999))
-      ->capture_default_str();
-  command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
+  add_number(*command, "--confidence", options->confidence, confidence_range,
+             "Of all intervals together, such as 0.99");
+  add_out_option(*command, options->out);
   command->footer(
       "Writes bias.png, bias.pdf, bias.exr and bias.csv. Each policy runs in both modes, reuse and "
       "unbiased.\n"

@@ -9,6 +9,11 @@
 
 namespace quartet {
 
+/// The names of all that write_bias_files writes.
+inline std::vector<std::string> bias_file_names() {
+  return {"bias.png", "bias.pdf", "bias.exr", "bias.csv"};
+}
+
 /// Everything that a measurement of bias is written with.
 struct BiasReport {
   const Run& run;

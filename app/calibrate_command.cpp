@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,12 +9,13 @@
 #include "app/interrupt.h"
 #include "app/json_text.h"
 #include "app/lane_option.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/shell_words.h"
+#include "app/stop_options.h"
 #include "renderer/measure/calibrate.h"
 
 namespace quartet {
@@ -22,6 +25,7 @@ struct CalibrateOptions {
   RunOptions run;
   LaneOptions lanes;
   CommonBudget budget;
+  std::optional<std::uint32_t> frames;
   std::string error;
   std::string reference;
   std::uint32_t reference_spp = 1024;
@@ -30,6 +34,7 @@ struct CalibrateOptions {
 
 CommonBudget budget_of(const CalibrateOptions& options) {
   CommonBudget budget = options.budget;
+  budget.frames = options.frames.value_or(budget.frames);
   if (!options.error.empty()) {
     budget.error = parse_error_target(options.error);
   }
@@ -78,6 +83,41 @@ std::string lane_words(const std::vector<Calibration>& found, std::uint32_t fram
   return words;
 }
 
+bool is_comparable(const Calibration& each) {
+  return each.met && estimator(each.policy.estimator).channels > 0;
+}
+
+/// "contrast, kl" of those that a rule holds for.
+template <class Rule>
+std::string ids_of(const std::vector<Calibration>& found, const Rule& rule) {
+  std::vector<std::string_view> ids;
+  for (const Calibration& each : found) {
+    if (rule(each)) {
+      ids.push_back(estimator(each.policy.estimator).id);
+    }
+  }
+  return fmt::format("{}", fmt::join(ids, ", "));
+}
+
+std::string ids_of_unmet(const std::vector<Calibration>& found) {
+  return ids_of(found, [](const Calibration& each) { return !each.met; });
+}
+
+/// What the printed command lacks, as a comment of a shell; empty if it has all.
+std::string missing_text(const std::vector<Calibration>& found, const CommonBudget& budget) {
+  const std::string unmet = ids_of_unmet(found);
+  const std::string plain =
+      ids_of(found, [](const Calibration& each) { return each.met && !is_comparable(each); });
+  std::string text;
+  if (!unmet.empty()) {
+    text = fmt::format("without {}: cannot meet {}", unmet, budget.text());
+  }
+  if (!plain.empty()) {
+    text += fmt::format("{}without {}: no threshold", text.empty() ? "" : "; ", plain);
+  }
+  return text.empty() ? "" : "  # " + text;
+}
+
 void print_table(const std::vector<Calibration>& found, const CommonBudget& budget,
                  const CalibrateOptions& options) {
   fmt::print("{:<22} {:>9} {:<30} {:>6} {:>9} {:>9}{}\n", "estimator", "factor", "thresholds",
@@ -97,12 +137,29 @@ void print_table(const std::vector<Calibration>& found, const CommonBudget& budg
   }
   // What has no threshold, or none that does, is nothing to compare like with like.
   std::vector<Calibration> comparable = found;
-  std::erase_if(comparable, [](const Calibration& each) {
-    return !each.met || estimator(each.policy.estimator).channels == 0;
-  });
+  std::erase_if(comparable, [](const Calibration& each) { return !is_comparable(each); });
   if (!comparable.empty()) {
-    fmt::print("quartet figure {} {} --out DIR\n", scene_words(options.run),
-               lane_words(comparable, budget.frames));
+    fmt::print("quartet figure {} {} --out DIR{}\n", scene_words(options.run),
+               lane_words(comparable, budget.frames), missing_text(found, budget));
+  }
+}
+
+/// Throws UsageError for an option that no lane's search looks at.
+void check_use(const CalibrateOptions& options, std::span<const SamplingPolicy> policies,
+               const CommonBudget& budget) {
+  const auto has_threshold = [](const SamplingPolicy& policy) {
+    return estimator(policy.estimator).channels > 0;
+  };
+  if (options.frames && std::ranges::none_of(policies, has_threshold)) {
+    throw UsageError(
+        "--frames has no effect: without a threshold, as many frames are run as meet the budget");
+  }
+  const auto needs_reference = [](const SamplingPolicy& policy) {
+    return estimator(policy.estimator).needs_reference;
+  };
+  if (!options.reference.empty() && !budget.error &&
+      std::ranges::none_of(policies, needs_reference)) {
+    throw UsageError("--reference has no effect: it is for --error, and for the estimator oracle");
   }
 }
 
@@ -140,7 +197,9 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
 
 void run_calibrate(const CalibrateOptions& options, const Program& program) {
   const CommonBudget budget = budget_of(options);
-  const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run);
+  const std::vector<SamplingPolicy> policies =
+      policies_of(options.lanes, options.run.policy, {.frames = options.frames, .spp = budget.spp});
+  check_use(options, policies, budget);
   Run run = prepare_run(options.run, 1);
   run.lab.statistics = {};
   std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
@@ -158,6 +217,10 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   }
   report_rejected(rejected_of(experiment.lane(), run.settings.seed), options.run, run.scene,
                   run.settings);
+  tell_if_partial(experiment.store().partial(), options.run);
+  if (const std::string unmet = ids_of_unmet(found); !unmet.empty()) {
+    throw std::runtime_error(fmt::format("{} cannot be met by {}", budget.text(), unmet));
+  }
 }
 
 }  // namespace
@@ -168,26 +231,24 @@ void add_calibrate_command(CLI::App& app, const Program& program) {
   const auto options = std::make_shared<CalibrateOptions>();
   add_run_options(*command, options->run);
   add_lane_options(*command, options->lanes);
-  command->add_option("--spp", options->budget.spp, "The same mean of samples per pixel")
-      ->check(number_above_zero());
-  command->add_option("--seconds", options->budget.seconds, "The same as-if-alone time")
-      ->check(number_above_zero());
-  command->add_option("--error", options->error, "The same error, such as relmse=0.01")
-      ->type_name("METRIC=VALUE");
-  command->add_option("--frames", options->budget.frames, "Rounds of sampling to take it in")
-      ->check(CLI::Range(1u, 10'000'000u))
-      ->capture_default_str();
+  add_number(*command, "--spp", options->budget.spp, spp_range,
+             "The same mean of samples per pixel");
+  add_number(*command, "--seconds", options->budget.seconds, above_zero<double>,
+             "The same as-if-alone time");
+  CLI::Option* const error =
+      command->add_option("--error", options->error, "The same error, such as relmse=0.01")
+          ->type_name("METRIC=VALUE");
+  add_number(
+      *command, "--frames", options->frames, {1, 10'000'000},
+      fmt::format("Rounds of sampling to take it in; {} if not given", CommonBudget().frames));
   add_reference_option(*command, options->reference);
-  command
-      ->add_option("--reference-spp", options->reference_spp,
-                   "Of the reference that is made, and kept, for --error if none is given")
-      ->check(CLI::Range(2u, 1u << 30))
-      ->capture_default_str();
+  add_reference_spp_option(*command, options->reference_spp)->needs(error);
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   command->footer(
       "All thresholds of an estimator are scaled by one factor, found by bisection over replays. "
       "Under the\npolicy vote every pixel gets at least one sample a round, so that --frames "
       "samples a pixel are the least.\n"
+      "Exit status 1 if a lane cannot meet the goal; the command that is printed leaves it out.\n"
       "Examples:\n"
       "  quartet calibrate cornell-checker --spp 24\n"
       "  quartet calibrate veach-plates --error relmse=0.01 --frames 30 --json");

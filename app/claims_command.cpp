@@ -6,6 +6,8 @@
 #include "app/claims_files.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/number_option.h"
+#include "app/output_check.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
 #include "app/rejected_report.h"
@@ -66,19 +68,16 @@ void add_claims_command(CLI::App& app, const Program& program) {
   CLI::App* command = app.add_subcommand(
       "claims", "The findings of the 2021 report on adaptive sampling, measured");
   const auto options = std::make_shared<ClaimsOptions>();
-  add_run_options(*command, options->run);
+  // Its policies are those of the report: nothing of them can be chosen.
+  add_scene_options(*command, options->run);
+  add_threads_option(*command, options->run);
+  add_memory_option(*command, options->run);
   command->get_option("scene")->required(false)->capture_default_str()->description(
       "The report's scene, or one with shapes of the same ids");
-  command->add_option("--frames", options->frames, "Rounds of sampling")
-      ->check(CLI::Range(1u, 100'000u))
-      ->capture_default_str();
+  add_number(*command, "--frames", options->frames, {1, 10'000}, "Rounds of sampling");
   add_seeds_option(*command, options->seeds);
   add_reference_option(*command, options->reference);
-  command
-      ->add_option("--reference-spp", options->reference_spp,
-                   "Of the reference that is made, and kept, where none is given")
-      ->check(CLI::Range(2u, 1u << 30))
-      ->capture_default_str();
+  add_reference_spp_option(*command, options->reference_spp);
   command->add_flag("--json", options->json, "Print JSON instead of tables");
   command->add_option("--csv", options->csv, "Write the measured numbers to a file, too")
       ->type_name("FILE.csv");

@@ -6,13 +6,15 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
 #include "app/commands.h"
 #include "app/messages.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
 #include "app/shell_words.h"
+#include "renderer/scene/load_scene.h"
 #include "renderer/version.h"
 
 namespace quartet {
@@ -44,6 +46,58 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{} (see quartet{} --help)", text, command);
 }
 
+/// What fits the buffer would be lost without a word after the return.
+int finish_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) {
+    return 0;
+  }
+  const int error = errno != 0 ? errno : EIO;  // of a write before
+  std::clearerr(stdout);
+  return complain(failed,
+                  fmt::format("cannot write to the standard output: {}", std::strerror(error)));
+}
+
+/// The help or the version, whichever was asked for.
+int print_help(const CLI::App& app, const CLI::ParseError& success) {
+  std::ostringstream text;
+  app.exit(success, text, text);
+  std::fputs(text.str().c_str(), stdout);
+  return finish_output();
+}
+
+/// Nothing of the program is empty. A word that is comes from a shell's variable that is not set,
+/// and would count as an option that is not given.
+void check_words(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.empty()) {
+      throw UsageError(
+          fmt::format("the word after '{}' is empty; a variable that is not set?", argv[i - 1]));
+    }
+    if (word.starts_with("--") && word.find('=') == word.size() - 1) {
+      throw UsageError(fmt::format("'{}' has no value; a variable that is not set?", word));
+    }
+  }
+}
+
+/// The window's own options, given beside a command, would do nothing.
+void check_window_options(const CLI::App& app, const WindowOptions& window) {
+  if (app.get_subcommands().empty()) {
+    return;
+  }
+  const std::string command = app.get_subcommands().front()->get_name();
+  const std::string given = window.ui_scale         ? "--ui-scale"
+                            : window.reset_settings ? "--reset-settings"
+                            : !window.scene.empty() ? fmt::format("'{}'", window.scene)
+                                                    : "";
+  if (!given.empty()) {
+    throw UsageError(fmt::format(
+        "{} has no effect before {}: it is for the window, which opens without a command", given,
+        command));
+  }
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
@@ -52,7 +106,9 @@ int run_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", fmt::format("quartet {}", version()));
   app.require_subcommand(0, 1);
   app.footer(
-      "Without a command: the lab window; without a display, the report's figures into out/.\n"
+      "Without a command: the lab window; without a display, the report's figures into out/, or\n"
+      "out-2/ and so on if there is one already.\n"
+      "Exit status: 0 done, 1 failed, 2 wrong usage.\n"
       "Examples:\n"
       "  quartet veach-plates\n"
       "  quartet figure cornell-checker --out out\n"
@@ -61,9 +117,8 @@ int run_command_line(int argc, const char* const* argv) {
   WindowOptions window;
   app.add_option("scene", window.scene,
                  "For the window: a Mitsuba 3 XML file, or the name of a built-in scene");
-  app.add_option("--ui-scale", window.ui_scale,
-                 "For the window: size of text and controls; the monitor's if not given")
-      ->check(number_between(0.5, 8.0));
+  add_number(app, "--ui-scale", window.ui_scale, ui_scale_range,
+             "For the window: size of text and controls; the monitor's if not given");
   app.add_flag("--reset-settings", window.reset_settings,
                "For the window: forget layout, views and last scene");
   add_figure_command(app, program);
@@ -79,22 +134,21 @@ int run_command_line(int argc, const char* const* argv) {
   add_trace_command(app, program);
   add_bias_command(app, program);
   add_stability_command(app, program);
+  app.parse_complete_callback([&] { check_window_options(app, window); });
   try {
+    check_words(argc, argv);
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       run_lab_window(window, program);
     }
-    // What fits the buffer would be lost without a word after the return.
-    if (std::fflush(stdout) != 0) {
-      throw std::runtime_error(
-          fmt::format("cannot write to the standard output: {}", std::strerror(errno)));
-    }
-    return 0;
+    return finish_output();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
-      return app.exit(error);  // help or version, on stdout
+      return print_help(app, error);
     }
     return complain(wrong_usage, usage_message(app, error));
+  } catch (const ParameterError& error) {
+    return complain(wrong_usage, fmt::format("-D: {}", error.what()));
   } catch (const std::invalid_argument& error) {
     return complain(wrong_usage, error.what());
   } catch (const std::bad_alloc&) {

@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 struct CompareOptions {
   std::string test;
   std::string reference;
-  std::string metric = "relmse";
+  std::string metric;  ///< empty: relmse
   std::string picture;
   bool json = false;
 };
@@ -138,7 +138,12 @@ void print_table(const CompareOptions& options, const CompareResult& comparison)
 }
 
 void run_compare(const CompareOptions& options, const Program& program) {
-  const Metric& row = find_metric(options.metric);
+  const Metric& row =
+      options.metric.empty() ? metric(MetricId::relmse) : find_metric(options.metric);
+  if (!options.metric.empty() && options.picture.empty()) {
+    throw UsageError(
+        "--metric has no effect: it is for the --picture; the numbers are those of all metrics");
+  }
   const std::filesystem::path picture = options.picture;
   if (!picture.empty() && picture.extension() != ".png") {
     throw UsageError(fmt::format("--picture: '{}' is no .png", options.picture));
@@ -171,8 +176,8 @@ void add_compare_command(CLI::App& app, const Program& program) {
   command->add_option("reference", options->reference, "The same, of the same size")->required();
   command->add_flag("--json", options->json, "As JSON; numbers that are not finite are null");
   command->add_option("--picture", options->picture, "Write where the error is as a .png");
-  command->add_option("--metric", options->metric, "Of the picture; see quartet list")
-      ->capture_default_str();
+  command->add_option("--metric", options->metric,
+                      "Of the picture, relmse if not given; see quartet list");
   command->footer(
       "The noise floor is what a metric would say of a perfect picture, because the reference has\n"
       "noise of its own; references of quartet reference know theirs.\n"

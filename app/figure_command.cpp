@@ -7,12 +7,15 @@
 #include "app/lab_files.h"
 #include "app/lab_run.h"
 #include "app/lane_option.h"
+#include "app/output_check.h"
 #include "app/reference_option.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/stop_options.h"
+#include "app/stop_report.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/staged_files.h"
+#include "ui/lab_figure.h"
 
 namespace quartet {
 namespace {
@@ -23,7 +26,7 @@ struct FigureOptions {
   std::string reference;
   LaneOptions lanes;
   ViewOptions view;
-  std::string out = "out";
+  std::string out;
 };
 
 void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
@@ -48,18 +51,25 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
              out.string());
 }
 
+/// Whether what will be drawn can be written, before it is rendered.
+void check_sizes(const RenderSettings& settings, std::size_t lanes, const ViewSettings& view) {
+  check_figure_size("--size", settings.width, settings.height, lanes,
+                    view.heat == HeatRange::report);
+  check_picture_size("--size", settings.width, settings.height, "panel.exr", lane_exr_channels);
+}
+
 void run_figure(const FigureOptions& options, const Program& program) {
-  const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run);
-  const ViewSettings view = view_settings(options.view);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
+  const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run.policy, stop);
+  const ViewSettings view = view_settings(options.view);
   Run run = prepare_run(options.run, policies.size());
-  check_exr_size(run.settings.width, run.settings.height, lane_exr_channels);
+  check_sizes(run.settings, policies.size(), view);
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(policies, reference);
-  StagedFiles files(options.out);
+  StagedFiles files(options.out, lab_file_names(policies));
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
           run.lab);
-  Snapshot snapshot = run_to_end(lab, stop, image_of(reference));
+  Snapshot snapshot = run_to_end(lab, or_frames(stop), image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
   files.finish([&] {
@@ -68,7 +78,8 @@ void run_figure(const FigureOptions& options, const Program& program) {
   });
   print_table(snapshot, options.out);
   report_rejected(snapshot, options.run);
-  tell_if_partial(lab, options.run);
+  tell_if_short(snapshot, stop);
+  tell_if_partial(lab.partial(), options.run);
 }
 
 }  // namespace
@@ -82,7 +93,7 @@ void add_figure_command(CLI::App& app, const Program& program) {
   add_reference_option(*command, options->reference);
   add_lane_options(*command, options->lanes);
   add_view_options(*command, options->view);
-  command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
+  add_out_option(*command, options->out);
   command->footer(
       "Each lane stops at the first condition that it meets. With --reference, the panels' .exr "
       "also\n"
@@ -95,8 +106,9 @@ void add_figure_command(CLI::App& app, const Program& program) {
   command->callback([options, &program] { run_figure(*options, program); });
 }
 
-void run_default_figure(const Program& program, const std::string& scene) {
+void run_default_figure(const Program& program, const std::string& scene, const std::string& out) {
   FigureOptions options;
+  options.out = out;
   options.run.scene = scene.empty() ? options.run.scene : scene;
   run_figure(options, program);
 }

@@ -6,6 +6,7 @@
 #include "app/lane_option.h"
 #include "app/shell_words.h"
 #include "renderer/image/exr.h"
+#include "renderer/scene/synthetic.h"
 
 namespace quartet {
 namespace {
@@ -46,14 +47,18 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
                                 const std::filesystem::path& reference) {
   const RenderSettings& settings = snapshot.settings;
   std::string command = "quartet figure " + shell_word(scene);
-  command += fmt::format(" --frames {} --size {}x{} --integrator {} --seed {}", snapshot.frame,
-                         settings.width, settings.height, integrator(settings.integrator).id,
-                         settings.seed);
-  if (settings.max_depth != snapshot.scene->scene().max_depth) {
-    command += fmt::format(" --max-depth {}", settings.max_depth);
-  }
-  if (!(settings.camera == snapshot.scene->scene().camera)) {
-    command += " --camera=" + camera_text(settings.camera);
+  command += fmt::format(" --frames {} --size {}x{} --seed {}", snapshot.frame, settings.width,
+                         settings.height, settings.seed);
+  // What draws its samples has no paths and no camera, and its command no options for them.
+  const Scene& traced = snapshot.scene->scene();
+  if (synthetic_of(traced) == nullptr) {
+    command += fmt::format(" --integrator {}", integrator(settings.integrator).id);
+    if (settings.max_depth != traced.max_depth) {
+      command += fmt::format(" --max-depth {}", settings.max_depth);
+    }
+    if (!(settings.camera == traced.camera)) {
+      command += " --camera=" + camera_text(settings.camera);
+    }
   }
   for (const LaneSnapshot& lane : snapshot.lanes) {
     command += " --lane " + lane_text(lane.policy);

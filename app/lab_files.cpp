@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "renderer/image/lane_exr.h"
@@ -11,7 +12,6 @@
 #include "ui/lab_figure.h"
 
 namespace quartet {
-
 namespace {
 
 /// "15", or "8 to 15" where lanes ended at different frames.
@@ -24,7 +24,30 @@ std::string frames_text(const Snapshot& snapshot) {
   return first == last ? fmt::format("{}", last) : fmt::format("{} to {}", first, last);
 }
 
+/// What the files of each lane are called, without extension.
+std::vector<std::string> lane_names(std::span<const SamplingPolicy> policies) {
+  std::vector<std::string> names;
+  std::map<std::string, int> named;
+  for (const SamplingPolicy& policy : policies) {
+    std::string name(estimator(policy.estimator).id);
+    if (const int before = named[name]++; before > 0) {
+      name += fmt::format("-{}", before + 1);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 }  // namespace
+
+std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies) {
+  std::vector<std::string> names{"images.png",   "images.pdf", "heatmaps.png",
+                                 "heatmaps.pdf", "panels.csv", "panels.json"};
+  for (const std::string& lane : lane_names(policies)) {
+    names.insert(names.end(), {lane + ".exr", lane + ".png", lane + "-heatmap.png"});
+  }
+  return names;
+}
 
 void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
                      const std::string& command_line, const std::optional<RunCost>& cost,
@@ -38,12 +61,11 @@ void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSet
   const Figure heatmaps = heat_figure(snapshot, view, title, footer);
   write_figure_png(heatmaps, files.stage("heatmaps.png"));
   write_figure_pdf(heatmaps, files.stage("heatmaps.pdf"));
-  std::map<std::string, int> named;
+  std::vector<SamplingPolicy> policies;
+  std::ranges::transform(snapshot.lanes, std::back_inserter(policies), &LaneSnapshot::policy);
+  const std::vector<std::string> names = lane_names(policies);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
-    std::string name(estimator(snapshot.lanes[i].policy.estimator).id);
-    if (const int before = named[name]++; before > 0) {
-      name += fmt::format("-{}", before + 1);
-    }
+    const std::string& name = names[i];
     ExrImage exr = lane_exr(snapshot, i);
     exr.attributes = exr_attributes(command_line, snapshot, i, files.run());
     write_exr(files.stage(name + ".exr"), exr);

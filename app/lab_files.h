@@ -1,13 +1,18 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "app/run_record.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/image/views.h"
 
 namespace quartet {
+
+/// The names of all that write_lab_files writes.
+std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies);
 
 /// Everything that is saved of lanes at a frame, by the command line and by the window: the two
 /// figures (images and heatmaps, PNG and PDF), each lane's EXR, PNG and heatmap, panels.csv and

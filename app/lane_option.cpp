@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 
 #include "app/commands.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
 
 namespace quartet {
 namespace {
@@ -19,25 +18,6 @@ namespace {
                   text, reason));
 }
 
-template <class Number>
-Number number_of(const std::string& text, const std::string& word) {
-  Number number{};
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
-  if (error != std::errc() || stop != end) {
-    fail(text, fmt::format("'{}' is not a number", word));
-  }
-  return number;
-}
-
-float positive_number(const std::string& text, const std::string& word, bool zero) {
-  const auto number = number_of<float>(text, word);
-  if (!(std::isfinite(number) && (zero ? number >= 0.0f : number > 0.0f))) {
-    fail(text, fmt::format("{} is too small or no number", word));
-  }
-  return number;
-}
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> words{""};
   for (const char c : text) {
@@ -48,6 +28,62 @@ std::vector<std::string> split(const std::string& text) {
     }
   }
   return words;
+}
+
+/// Reads one word of a lane that is not a threshold; false if none of the table is called so.
+bool read_parameter(const std::string& text, const std::string& word, PolicyOptions& own) {
+  const std::size_t equals = word.find('=');
+  const std::string name = word.substr(0, equals);
+  for (const PolicyParameter& row : policy_parameters()) {
+    if (row.word != name) {
+      continue;
+    }
+    if (row.given(own)) {
+      fail(text, fmt::format("{} is there twice", name));
+    }
+    const bool has_value = equals != std::string::npos;
+    if (has_value != row.takes_value) {
+      fail(text, fmt::format("{} {}", name, has_value ? "takes no value" : "needs a value"));
+    }
+    const std::string wrong = row.read(has_value ? word.substr(equals + 1) : "", own);
+    if (!wrong.empty()) {
+      fail(text, fmt::format("{}: {}", name, wrong));
+    }
+    return true;
+  }
+  return false;
+}
+
+ChosenLane lane_of(const std::string& text, const PolicyOptions& options) {
+  const std::size_t colon = text.find(':');
+  const Estimator& row = find_estimator(text.substr(0, colon));
+  PolicyOptions own;
+  std::vector<float> thresholds;
+  if (colon != std::string::npos) {
+    for (const std::string& word : split(text.substr(colon + 1))) {
+      if (read_parameter(text, word, own)) {
+        continue;
+      }
+      if (thresholds.size() == std::size_t(row.channels)) {
+        fail(text, fmt::format("'{}' is one too many or unknown", word));
+      }
+      const std::optional<float> number = number_in(word, threshold_range);
+      if (!number) {
+        fail(text, out_of_range(word, threshold_range));
+      }
+      thresholds.push_back(*number);
+    }
+  }
+  ChosenLane lane{policy_of(options, row.key, own), own};
+  if (thresholds.size() == 1) {
+    lane.policy.thresholds.fill(thresholds.front());
+  } else if (!thresholds.empty()) {
+    if (thresholds.size() != std::size_t(row.channels)) {
+      fail(text, fmt::format("{} thresholds, not 1 or {}", thresholds.size(), row.channels));
+    }
+    std::ranges::copy(thresholds, lane.policy.thresholds.begin());
+  }
+  return lane;
 }
 
 }  // namespace
@@ -65,24 +101,23 @@ void add_lane_options(CLI::App& command, LaneOptions& options) {
       ->excludes(estimators_option);
 }
 
-std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const RunOptions& run) {
-  std::vector<SamplingPolicy> policies;
-  for (const std::string& lane : options.lanes) {
-    policies.push_back(policy_of_lane(lane, run));
+std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const PolicyOptions& policy,
+                                        const StopConditions& stop) {
+  std::vector<ChosenLane> lanes;
+  for (const std::string& text : options.lanes) {
+    lanes.push_back(lane_of(text, policy));
   }
-  if (!policies.empty()) {
-    return policies;
-  }
-  for (const std::string& id : options.estimators) {
+  for (const std::string& id :
+       options.lanes.empty() ? options.estimators : std::vector<std::string>()) {
     const EstimatorId key = find_estimator(id).key;
-    for (const SamplingPolicy& other : policies) {
-      if (other.estimator == key) {
+    for (const ChosenLane& other : lanes) {
+      if (other.policy.estimator == key) {
         throw UsageError(fmt::format("--estimators: '{}' is named twice; name each once", id));
       }
     }
-    policies.push_back(policy_of(run, key));
+    lanes.push_back({policy_of(policy, key), {}});
   }
-  return policies;
+  return checked_policies(policy, lanes, stop);
 }
 
 std::string lane_text(const SamplingPolicy& policy) {
@@ -96,78 +131,43 @@ std::string lane_text(const SamplingPolicy& policy) {
   for (int c = 0; c < row.channels; ++c) {
     add(fmt::format("{}", policy.thresholds[std::size_t(c)]));
   }
-  if (policy.allocation.kind != row.default_allocation) {
+  const AllocationFields read = fields_read(policy);
+  if (row.channels > 0 && policy.allocation.kind != row.default_allocation) {
     add(fmt::format("policy={}", allocation(policy.allocation.kind).id));
   }
-  if (policy.use != SamplingPolicy{}.use) {
+  if (policy.use != SamplingPolicy().use) {
     add(fmt::format("mode={}", sample_use(policy.use).id));
   }
-  add(fmt::format("multiplier={}", policy.allocation.multiplier));
-  if (policy.allocation.first > 0) {
+  if (read.multiplier) {
+    add(fmt::format("multiplier={}", policy.allocation.multiplier));
+  }
+  if (read.first && policy.allocation.first > 0) {
     add(fmt::format("first={}", policy.allocation.first));
   }
-  if (policy.allocation.batch > 0) {
+  if (read.batch && policy.allocation.batch > 0) {
     add(fmt::format("batch={}", policy.allocation.batch));
   }
-  if (policy.max_spp != SamplingPolicy{}.max_spp) {
+  if (policy.max_spp != SamplingPolicy().max_spp) {
     add(fmt::format("max-spp={}", policy.max_spp));
   }
-  if (policy.allocation.stochastic_rounding) {
+  if (read.multiplier && policy.allocation.stochastic_rounding) {
     add("stochastic-rounding");
   }
   return text;
 }
 
-SamplingPolicy policy_of_lane(const std::string& text, const RunOptions& run) {
-  const std::size_t colon = text.find(':');
-  const Estimator& row = find_estimator(text.substr(0, colon));
-  SamplingPolicy policy = policy_of(run, row.key);
-  if (colon == std::string::npos) {
-    return policy;
-  }
-  int thresholds = 0;
-  for (const std::string& word : split(text.substr(colon + 1))) {
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (name == "policy") {
-      policy.allocation.kind = find_allocation(value).key;
-    } else if (name == "mode") {
-      policy.use = find_sample_use(value).key;
-    } else if (name == "first") {
-      policy.allocation.first = number_of<std::uint16_t>(text, value);
-    } else if (name == "batch") {
-      policy.allocation.batch = number_of<std::uint16_t>(text, value);
-    } else if (name == "multiplier") {
-      policy.allocation.multiplier = positive_number(text, value, true);
-    } else if (name == "max-spp") {
-      policy.max_spp = std::max(1u, number_of<std::uint32_t>(text, value));
-    } else if (name == "stochastic-rounding") {
-      policy.allocation.stochastic_rounding = true;
-    } else if (thresholds < row.channels) {
-      policy.thresholds[std::size_t(thresholds++)] = positive_number(text, word, false);
-    } else {
-      fail(text, fmt::format("'{}' is one too many or unknown", word));
-    }
-  }
-  if (thresholds == 1) {
-    policy.thresholds = {policy.thresholds[0], policy.thresholds[0], policy.thresholds[0]};
-  } else if (thresholds != 0 && thresholds != row.channels) {
-    fail(text, fmt::format("{} thresholds, not 1 or {}", thresholds, row.channels));
-  }
-  return policy;
+SamplingPolicy policy_of_lane(const std::string& text, const PolicyOptions& options) {
+  const ChosenLane lane = lane_of(text, options);
+  return checked_policies({}, std::span(&lane, 1), {}).front();
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
-  command
-      .add_option("--heat", options.heat,
-                  "Heatmap scale: linked (0 to the highest of all) or report (each its own)")
-      ->capture_default_str();
-  command.add_option("--tone-map", options.tone_map, "clamp, reinhard or filmic")
-      ->capture_default_str();
-  command.add_option("--exposure", options.exposure, "In stops")
-      ->check(number_between(-100.0, 100.0))
-      ->capture_default_str();
+  command.add_option("--heat", options.heat,
+                     "Heatmap scale: linked (0 to the highest of all; the default) or report (each "
+                     "its own)");
+  command.add_option("--tone-map", options.tone_map, "clamp (the default), reinhard or filmic");
+  add_number(command, "--exposure", options.exposure, {-100.0f, 100.0f},
+             "In stops; 0 if not given");
 }
 
 std::string heat_id(HeatRange range) {
@@ -176,13 +176,15 @@ std::string heat_id(HeatRange range) {
 
 ViewSettings view_settings(const ViewOptions& options) {
   ViewSettings view;
-  view.exposure = options.exposure;
-  view.tone_map = find_tone_map(options.tone_map).key;
-  if (options.heat != "linked" && options.heat != "report") {
+  view.exposure = options.exposure.value_or(view.exposure);
+  if (!options.tone_map.empty()) {
+    view.tone_map = find_tone_map(options.tone_map).key;
+  }
+  if (!options.heat.empty() && options.heat != "linked" && options.heat != "report") {
     throw UsageError(
         fmt::format("--heat: unknown scale '{}'; there are: linked, report", options.heat));
   }
-  view.heat = options.heat == "linked" ? HeatRange::linked : HeatRange::report;
+  view.heat = options.heat == "report" ? HeatRange::report : HeatRange::linked;
   return view;
 }
 

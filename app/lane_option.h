@@ -1,10 +1,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/run_options.h"
+#include "app/policy_options.h"
 #include "renderer/image/views.h"
 
 namespace quartet {
@@ -16,18 +17,22 @@ struct LaneOptions {
 };
 
 void add_lane_options(CLI::App& command, LaneOptions& options);
-/// Throws UsageError.
-std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const RunOptions& run);
+/// The policies of all lanes, for a run that ends as the user said in `stop`. Throws UsageError, as
+/// checked_policies does.
+std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const PolicyOptions& policy,
+                                        const StopConditions& stop);
 
-/// A lane as one word, "kl:0.005,multiplier=0.5", which policy_of_lane reads back exactly.
+/// A lane as one word, "kl:0.005,multiplier=0.5", with all that decides of its policy, so that
+/// policy_of_lane reads back one that does the same.
 std::string lane_text(const SamplingPolicy& policy);
-SamplingPolicy policy_of_lane(const std::string& text, const RunOptions& run);
+/// `options` hold where the word says nothing. Throws UsageError.
+SamplingPolicy policy_of_lane(const std::string& text, const PolicyOptions& options);
 
-/// How pictures are shown, as options.
+/// How pictures are shown, as options; what is not given is as ViewSettings has it.
 struct ViewOptions {
-  std::string heat = "linked";
-  std::string tone_map = "clamp";
-  float exposure = 0.0f;
+  std::string heat;
+  std::string tone_map;
+  std::optional<float> exposure;
 };
 
 void add_view_options(CLI::App& command, ViewOptions& options);

@@ -6,7 +6,8 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
+#include "app/output_check.h"
 #include "app/reference_option.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
@@ -22,7 +23,8 @@ struct ReferenceOptions {
 };
 
 /// One that could be written but not read again would be of no use.
-void check_size(const RenderSettings& settings) {
+void check_reference_size(const RenderSettings& settings, const std::filesystem::path& path) {
+  constexpr std::size_t channels = 19;
   constexpr double most = 14e6;  // pixels; each has 19 numbers, and read_exr takes 2^28
   if (double(settings.width) * double(settings.height) > most) {
     throw UsageError(
@@ -30,7 +32,7 @@ void check_size(const RenderSettings& settings) {
                     "pixels are possible",
                     settings.width, settings.height));
   }
-  check_exr_size(settings.width, settings.height, 19);
+  check_picture_size("--size", settings.width, settings.height, path, channels);
 }
 
 /// Goes on with the file, if there is one.
@@ -92,7 +94,7 @@ void run_reference_command(const ReferenceOptions& options, const Program& progr
     throw UsageError("how long? give --spp, such as --spp 4096, or --seconds");
   }
   const Run run = prepare_run(options.run, 1);
-  check_size(run.settings);
+  check_reference_size(run.settings, output);
   ReferenceRender render(run.scene, run.settings);
   if (!options.restart) {
     resume_from(output, render);
@@ -127,14 +129,10 @@ void add_reference_command(CLI::App& app, const Program& program) {
   options->run.seed = reference_seed;
   add_scene_options(*command, options->run);
   add_threads_option(*command, options->run);
-  command
-      ->add_option("--spp", options->goal.spp,
-                   "Samples per pixel in all, those of earlier runs included")
-      ->check(CLI::Range(std::uint64_t(2), std::uint64_t(4'000'000'000)));
-  command
-      ->add_option("--seconds", options->goal.seconds,
-                   "Stop after so much time, earlier runs not counted")
-      ->check(number_above_zero());
+  add_number(*command, "--spp", options->goal.spp, {2, 4'000'000'000},
+             "Samples per pixel in all, those of earlier runs included");
+  add_number(*command, "--seconds", options->goal.seconds, above_zero<double>,
+             "Stop after so much time, earlier runs not counted");
   command->add_flag("--restart", options->restart,
                     "Replace a file that is there instead of going on with it");
   command->add_option("-o,--output", options->output, "An .exr")->required();

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
+#include "app/number_option.h"
 #include "app/progress.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
@@ -76,6 +77,12 @@ void add_reference_option(CLI::App& command, std::string& path) {
       .add_option("--reference", path,
                   "What errors are measured against: of quartet reference, or any EXR of this size")
       ->type_name("REF.exr");
+}
+
+CLI::Option* add_reference_spp_option(CLI::App& command, std::uint32_t& spp) {
+  return add_number(command, "--reference-spp", spp, {2, 1u << 30},
+                    "Of the reference that is made, and kept, where none is given")
+      ->excludes(command.get_option("--reference"));
 }
 
 std::shared_ptr<const Reference> reference_at(const std::string& path, const Run& run) {

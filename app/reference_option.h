@@ -17,6 +17,8 @@ namespace quartet {
 
 /// Adds --reference REF.exr.
 void add_reference_option(CLI::App& command, std::string& path);
+/// Adds --reference-spp, of one that is made where none is given, to a command with --reference.
+CLI::Option* add_reference_spp_option(CLI::App& command, std::uint32_t& spp);
 
 /// The reference at `path`, which fits the run. Of one that another program made, whose scene
 /// cannot be checked, a note goes to stderr. Null if the path is empty; throws std::runtime_error

@@ -6,12 +6,14 @@
 
 #include "app/commands.h"
 #include "app/lab_run.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
+#include "app/output_check.h"
 #include "app/reference_option.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/run_record.h"
 #include "app/stop_options.h"
+#include "app/stop_report.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
@@ -29,9 +31,10 @@ struct RenderOptions {
   std::string output;
 };
 
-SamplingPolicy render_policy(const RenderOptions& options) {
+SamplingPolicy render_policy(const RenderOptions& options, const StopConditions& stop) {
   const Estimator& row = find_estimator(options.estimator);
-  SamplingPolicy policy = policy_of(options.run, row.key);
+  const ChosenLane lane{policy_of(options.run.policy, row.key), {}};
+  SamplingPolicy policy = checked_policies(options.run.policy, std::span(&lane, 1), stop).front();
   const std::vector<float>& given = options.thresholds;
   if (given.empty()) {
     return policy;
@@ -61,6 +64,15 @@ void write_output(const std::filesystem::path& path, const Program& program,
   }
 }
 
+/// What can be known of the output before anything is rendered.
+void check_render_output(const RenderOptions& options, const RenderSettings& settings) {
+  check_picture_size("--size", settings.width, settings.height, options.output, lane_exr_channels);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.output, options.reference, ignored)) {
+    throw UsageError(fmt::format("-o: '{}' is the reference, which would be lost", options.output));
+  }
+}
+
 void print_summary(const std::filesystem::path& path, const Snapshot& snapshot,
                    const Reference* reference) {
   const FrameRecord& last = snapshot.lanes[0].history.back();
@@ -79,23 +91,22 @@ void run_render(const RenderOptions& options, const Program& program) {
   if (output.extension() != ".exr" && output.extension() != ".png") {
     throw UsageError(fmt::format("-o: '{}' is neither .exr nor .png", options.output));
   }
-  const SamplingPolicy policy = render_policy(options);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
+  const SamplingPolicy policy = render_policy(options, stop);
   Run run = prepare_run(options.run, 1);
-  if (output.extension() == ".exr") {
-    check_exr_size(run.settings.width, run.settings.height, lane_exr_channels);
-  }
+  check_render_output(options, run.settings);
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(std::span(&policy, 1), reference);
   StagedFiles files(output.parent_path(), {output.filename().string()});
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height,
           std::span(&policy, 1), run.lab);
-  Snapshot snapshot = run_to_end(lab, stop, image_of(reference));
+  Snapshot snapshot = run_to_end(lab, or_frames(stop), image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
   files.finish([&] { write_output(output, program, snapshot, files); });
   print_summary(output, snapshot, reference.get());
-  tell_if_partial(lab, options.run);
+  tell_if_short(snapshot, stop);
+  tell_if_partial(lab.partial(), options.run);
   report_rejected(snapshot, options.run);
 }
 
@@ -107,11 +118,9 @@ void add_render_command(CLI::App& app, const Program& program) {
   add_run_options(*command, options->run);
   command->add_option("--estimator", options->estimator, "Which; see quartet list")
       ->capture_default_str();
-  command
-      ->add_option("--threshold", options->thresholds,
-                   "One number, or three for contrast: R,G,B; the estimator's default if not given")
-      ->delimiter(',')
-      ->check(number_above_zero());
+  add_numbers(*command, "--threshold", options->thresholds, threshold_range,
+              "One number, or three for contrast: R,G,B; the estimator's default if not given")
+      ->expected(1, 3);
   add_stop_options(*command, options->stop);
   add_reference_option(*command, options->reference);
   command->add_option("-o,--output", options->output, "A .exr with all channels, or a .png")

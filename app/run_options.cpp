@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/commands.h"
 #include "app/messages.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
 #include "app/shell_words.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/synthetic.h"
 
 namespace quartet {
 namespace {
@@ -19,7 +22,7 @@ namespace {
 constexpr double gib = 1024.0 * 1024.0 * 1024.0;
 
 /// A picture that cannot fit should be refused before an hour of work, not after.
-void check_memory(const RenderSettings& settings, std::size_t lanes) {
+void check_memory(const RenderSettings& settings, std::size_t lanes, const std::string& size_name) {
   // A pixel of a lane (film with statistics, error, counts, plan) and of the store with a few
   // samples.
   constexpr double lane_bytes = 150.0;
@@ -29,9 +32,14 @@ void check_memory(const RenderSettings& settings, std::size_t lanes) {
   const double available = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
   if (needed > available) {
     throw UsageError(fmt::format(
-        "--size: {}x{} would take about {:.0f} GiB of memory, and this machine has {:.0f} GiB; "
+        "{}: {}x{} would take about {:.0f} GiB of memory, and this machine has {:.0f} GiB; "
         "choose a smaller size",
-        settings.width, settings.height, needed / gib, available / gib));
+        size_name, settings.width, settings.height, needed / gib, available / gib));
+  }
+  if (pixels > double(std::numeric_limits<std::int32_t>::max())) {
+    throw UsageError(fmt::format("{}: {}x{} are more pixels than can be counted, {}", size_name,
+                                 settings.width, settings.height,
+                                 std::numeric_limits<std::int32_t>::max()));
   }
 }
 
@@ -51,6 +59,22 @@ void set_camera(const std::vector<float>& numbers, Camera& camera) {
   }
 }
 
+/// What stands in for a scene draws its samples, and has neither paths nor a camera.
+void check_traced(const RunOptions& options, const Scene& scene) {
+  if (synthetic_of(scene) == nullptr) {
+    return;
+  }
+  const std::string_view given = !options.integrator.empty() ? "--integrator"
+                                 : options.max_depth         ? "--max-depth"
+                                 : !options.camera.empty()   ? "--camera"
+                                                             : "";
+  if (!given.empty()) {
+    throw UsageError(fmt::format(
+        "{} has no effect: it is for scenes whose light is traced, and {} draws its samples", given,
+        scene.name));
+  }
+}
+
 }  // namespace
 
 SceneParameters parse_defines(const std::vector<std::string>& defines) {
@@ -60,7 +84,10 @@ SceneParameters parse_defines(const std::vector<std::string>& defines) {
     if (equals == std::string::npos || equals == 0) {
       throw UsageError(fmt::format("-D: '{}' is not a parameter; write name=value", define));
     }
-    parameters[define.substr(0, equals)] = define.substr(equals + 1);
+    const std::string name = define.substr(0, equals);
+    if (!parameters.emplace(name, define.substr(equals + 1)).second) {
+      throw UsageError(fmt::format("-D: '{}' is given twice; give each parameter once", name));
+    }
   }
   return parameters;
 }
@@ -90,20 +117,17 @@ std::string scene_words(const RunOptions& options) {
 }
 
 PictureSize parse_size(const std::string& option, const std::string& text) {
-  const char* const end = text.data() + text.size();
-  int width = 0;
-  int height = 0;
-  const auto [x, width_error] = std::from_chars(text.data(), end, width);
-  bool good = width_error == std::errc() && x != end && *x == 'x';
-  if (good) {
-    const auto [stop, height_error] = std::from_chars(x + 1, end, height);
-    good = height_error == std::errc() && stop == end;
-  }
-  if (!good || width < 1 || height < 1) {
+  constexpr NumberRange<int> side{1, most_picture_side};
+  const std::size_t x = text.find('x');
+  const auto width = number_in(std::string_view(text).substr(0, x), side);
+  const auto height =
+      number_in(x == std::string::npos ? "" : std::string_view(text).substr(x + 1), side);
+  if (!width || !height) {
     throw UsageError(fmt::format(
-        "{}: '{}' is not a size; write width x height in pixels, such as 960x540", option, text));
+        "{}: '{}' is not a size; write width x height in pixels, each from {}, such as 960x540",
+        option, text, range_text(side)));
   }
-  return {width, height};
+  return {*width, *height};
 }
 
 void add_scene_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
@@ -117,32 +141,38 @@ void add_scene_options(CLI::App& command, RunOptions& options, const std::string
       ->allow_extra_args(false);
   command.add_option(size_name, options.size, "Picture size; the scene's own if not given")
       ->type_name("WxH");
-  command.add_option("--integrator", options.integrator, "How light is found: kajiya or mis")
-      ->capture_default_str();
-  command
-      .add_option("--max-depth", options.max_depth,
-                  "Longest path in segments, 2 is direct light; the scene's own if not given")
-      ->check(CLI::Range(1, 1'000'000));
-  command.add_option("--seed", options.seed, "Another seed, other random numbers")
-      ->capture_default_str();
-  command
-      .add_option("--camera", options.camera,
-                  "Another place for the camera: origin, right, up, forward, 3 numbers each; the "
-                  "window writes it")
-      ->delimiter(',')
+  command.add_option("--integrator", options.integrator,
+                     "How light is found: kajiya or mis, the default");
+  add_number(command, "--max-depth", options.max_depth, {1, 1'000'000},
+             "Longest path in segments, 2 is direct light; the scene's own if not given");
+  add_number(command, "--seed", options.seed, {0, std::numeric_limits<std::uint64_t>::max()},
+             "Another seed, other random numbers");
+  constexpr float most = std::numeric_limits<float>::max();
+  add_numbers(command, "--camera", options.camera, {-most, most},
+              "Another place for the camera: origin, right, up, forward, 3 numbers each; the "
+              "window writes it")
       ->expected(12);
 }
 
 void add_threads_option(CLI::App& command, RunOptions& options) {
-  command.add_option("--threads", options.threads, "0: one a processor")
-      ->check(CLI::Range(0, 4096))
-      ->capture_default_str();
+  add_number(command, "--threads", options.threads, {0, 4096}, "0: one a processor");
+}
+
+void add_memory_option(CLI::App& command, RunOptions& options) {
+  add_number(command, "--memory", options.memory_gib, {0.001, 1e6}, "For stored samples, in GiB");
+}
+
+int usable_threads(const RunOptions& options) {
+  const int most = tbb::this_task_arena::max_concurrency();
+  if (options.threads > most) {
+    tell("--threads {}: this machine runs {} at once, and no more are used", options.threads, most);
+  }
+  return std::min(options.threads, most);
 }
 
 void add_seeds_option(CLI::App& command, std::uint32_t& seeds, std::uint32_t least) {
-  command.add_option("--seeds", seeds, "Independent repetitions, each with the next seed")
-      ->check(CLI::Range(least, 10'000u))
-      ->capture_default_str();
+  add_number(command, "--seeds", seeds, {least, 10'000},
+             "Independent repetitions, each with the next seed");
 }
 
 void check_seeds(const RunOptions& options, std::uint32_t seeds) {
@@ -154,48 +184,19 @@ void check_seeds(const RunOptions& options, std::uint32_t seeds) {
 void add_run_options(CLI::App& command, RunOptions& options, const std::string& size_name) {
   add_scene_options(command, options, size_name);
   add_threads_option(command, options);
-  command.add_option("--memory", options.memory_gib, "For stored samples, in GiB")
-      ->check(number_between(0.001, 1e6))
-      ->capture_default_str();
-  command.add_option("--policy", options.policy,
-                     "How errors become sample counts: vote, two-level, batch or converge; the "
-                     "estimator's own if not given");
-  command
-      .add_option(
-          "--mode", options.mode,
-          "reuse: the samples that decide are the picture, which is biased; unbiased: those "
-          "of a pilot run decide")
-      ->capture_default_str();
-  command
-      .add_option("--first-samples", options.first_samples,
-                  "two-level, batch, converge: samples before the first look; 0: the policy's own")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  command
-      .add_option("--batch-samples", options.batch_samples,
-                  "two-level, batch, converge: samples from one look to the next; 0: the policy's "
-                  "own")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  command
-      .add_option("--multiplier", options.multiplier,
-                  "vote: extra samples for each vote; 1 is the text of the 2021 report, 0.5 its "
-                  "pictures")
-      ->check(number_between(0.0, 1000.0))
-      ->capture_default_str();
-  command.add_flag("--stochastic-rounding", options.stochastic_rounding,
-                   "vote: round multiplier x votes at random instead of down");
-  command.add_option("--max-spp", options.max_spp, "No pixel gets more samples than this")
-      ->check(CLI::Range(1u, 1u << 31))
-      ->capture_default_str();
+  add_memory_option(command, options);
+  add_policy_options(command, options.policy);
 }
 
 Run prepare_run(const RunOptions& options, std::size_t lanes) {
-  const IntegratorId integrator = find_integrator(options.integrator).key;
+  const IntegratorId integrator = options.integrator.empty()
+                                      ? RenderSettings().integrator
+                                      : find_integrator(options.integrator).key;
   Scene scene = open_scene(options.scene, parse_defines(options.defines));
   for (const std::string& warning : scene.warnings) {
     warn("{}", warning);
   }
+  check_traced(options, scene);
   Run run;
   run.settings = default_settings(scene);
   run.settings.integrator = integrator;
@@ -211,8 +212,8 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   if (!options.camera.empty()) {
     set_camera(options.camera, run.settings.camera);
   }
-  check_memory(run.settings, lanes);
-  run.lab.threads = options.threads;
+  check_memory(run.settings, lanes, options.size_name);
+  run.lab.threads = usable_threads(options);
   run.lab.memory = std::size_t(options.memory_gib * gib);
   run.lab.statistics.variance = true;
   run.scene = std::make_shared<const TraceScene>(std::move(scene));
@@ -220,26 +221,11 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   return run;
 }
 
-SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator) {
-  SamplingPolicy policy = default_policy(estimator);
-  if (!options.policy.empty()) {
-    policy.allocation.kind = find_allocation(options.policy).key;
-  }
-  policy.use = find_sample_use(options.mode).key;
-  policy.allocation.first = options.first_samples;
-  policy.allocation.batch = options.batch_samples;
-  policy.allocation.multiplier = options.multiplier;
-  policy.allocation.stochastic_rounding = options.stochastic_rounding;
-  policy.max_spp = options.max_spp;
-  return policy;
-}
-
-void tell_if_partial(const Lab& lab, const RunOptions& options) {
-  if (lab.partial()) {
+void tell_if_partial(bool partial, const RunOptions& options) {
+  if (partial) {
     tell(
         "the samples outgrew --memory ({} GiB): the oldest were forgotten, and a replay would "
-        "trace "
-        "them again",
+        "trace them again",
         options.memory_gib);
   }
 }

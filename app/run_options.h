@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/number_option.h"
+#include "app/policy_options.h"
 #include "renderer/adaptive/lab.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/integrator.h"
@@ -19,19 +21,13 @@ struct RunOptions {
   std::vector<std::string> defines;
   std::string size;
   std::string size_name = "--size";
-  std::string integrator = "mis";
+  std::string integrator;  ///< empty: mis
   std::optional<int> max_depth;
   std::uint64_t seed = 0;
   std::vector<float> camera;
   int threads = 0;
   double memory_gib = 2.0;
-  std::string policy;  ///< empty: the estimator's own
-  std::string mode = "reuse";
-  std::uint16_t first_samples = 0;
-  std::uint16_t batch_samples = 0;
-  float multiplier = 0.5f;
-  bool stochastic_rounding = false;
-  std::uint32_t max_spp = SamplingPolicy{}.max_spp;
+  PolicyOptions policy;
 };
 
 /// Adds those that decide the value of a sample: scene, parameters, size, integrator, depth, seed,
@@ -40,6 +36,14 @@ void add_scene_options(CLI::App& command, RunOptions& options,
                        const std::string& size_name = "--size");
 
 void add_threads_option(CLI::App& command, RunOptions& options);
+void add_memory_option(CLI::App& command, RunOptions& options);
+
+/// As many as --threads says. No more than this machine runs at once, which a line on stderr says
+/// then.
+int usable_threads(const RunOptions& options);
+
+/// Of intervals that shall hold all together.
+inline constexpr NumberRange<double> confidence_range{0.5, 0.999999};
 
 /// Adds --seeds, how many times a command repeats its runs, each time with the next seed.
 void add_seeds_option(CLI::App& command, std::uint32_t& seeds, std::uint32_t least = 1);
@@ -61,6 +65,8 @@ std::string scene_words(const RunOptions& options);
 struct PictureSize {
   int width, height;
 };
+/// A side of a picture, in pixels.
+inline constexpr int most_picture_side = 1 << 24;
 /// "960x540"; throws UsageError that begins with the option's name.
 PictureSize parse_size(const std::string& option, const std::string& text);
 
@@ -75,10 +81,7 @@ struct Run {
 /// run, for an early look at the memory. Throws UsageError or SceneError.
 Run prepare_run(const RunOptions& options, std::size_t lanes);
 
-/// The policy that the options ask of an estimator, with its default thresholds.
-SamplingPolicy policy_of(const RunOptions& options, EstimatorId estimator);
-
-/// A line on stderr if samples were forgotten for want of memory.
-void tell_if_partial(const Lab& lab, const RunOptions& options);
+/// A line on stderr if samples were forgotten for want of memory, so that a store is `partial`.
+void tell_if_partial(bool partial, const RunOptions& options);
 
 }  // namespace quartet

@@ -13,12 +13,13 @@
 #include "app/interrupt.h"
 #include "app/lab_driver.h"
 #include "app/lane_option.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
 #include "app/offscreen.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
 #include "app/rejected_report.h"
 #include "app/stop_options.h"
+#include "app/stop_report.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/stop_conditions.h"
@@ -35,10 +36,10 @@ struct ScreenshotOptions {
   StopOptions stop;
   std::string reference;
   std::string window = "1600x1000";
-  float scale = 0.0f;
+  std::optional<float> scale;
   std::string layout = "columns";
   std::vector<std::string> views{"image", "heatmap"};
-  std::string metric = "relmse";
+  std::string metric;  ///< empty: relmse
   std::string output;
 };
 
@@ -106,19 +107,65 @@ class EndSeeker {
   std::optional<std::uint32_t> frame_;
 };
 
-LabState state_of(const ScreenshotOptions& options, const Run& run) {
+/// Throws UsageError for an option that no picture that is shown depends on.
+void check_views(const ScreenshotOptions& options) {
+  const auto shows = [&](std::initializer_list<ViewKind> kinds) {
+    return std::ranges::any_of(options.views, [&](const std::string& id) {
+      return std::ranges::find(kinds, find_view(id).key) != kinds.end();
+    });
+  };
+  const auto need = [](std::string_view option, bool given, bool used, std::string_view what) {
+    if (given && !used) {
+      throw UsageError(fmt::format("{} has no effect: it is for {}", option, what));
+    }
+  };
+  const bool radiance = shows({ViewKind::image, ViewKind::reference});
+  need("--heat", !options.view.heat.empty(), shows({ViewKind::heatmap}), "--views heatmap");
+  need("--tone-map", !options.view.tone_map.empty(), radiance, "--views image or reference");
+  need("--exposure", options.view.exposure.has_value(), radiance, "--views image or reference");
+  need("--metric", !options.metric.empty(), !options.reference.empty(),
+       "the errors against --reference");
+}
+
+PictureSize window_size(const ScreenshotOptions& options) {
+  constexpr int most_side = 16384;  // of a texture, with the software rasteriser
+  const PictureSize size = parse_size("--size", options.window);
+  if (size.width > most_side || size.height > most_side) {
+    throw UsageError(
+        fmt::format("--size: a window of {0} cannot be drawn; at most {1}x{1} would be "
+                    "right",
+                    options.window, most_side));
+  }
+  return size;
+}
+
+std::vector<SamplingPolicy> shown_policies(const ScreenshotOptions& options,
+                                           const StopConditions& stop) {
+  std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run.policy, stop);
+  if (policies.size() > lane_count) {
+    throw UsageError(fmt::format(
+        "{}: {} lanes are more than the {} that the window has; quartet "
+        "figure takes any number",
+        options.lanes.lanes.empty() ? "--estimators" : "--lane", policies.size(), lane_count));
+  }
+  return policies;
+}
+
+LabState state_of(const ScreenshotOptions& options, const Run& run,
+                  std::vector<SamplingPolicy> policies) {
   LabState state = initial_state();
   set_scene(state, run.scene);
   state.scene = options.run.scene;
   state.request.settings = run.settings;
-  state.request.policies = policies_of(options.lanes, options.run);
-  state.request.policies.resize(std::min(state.request.policies.size(), lane_count));
+  state.request.policies = std::move(policies);
   state.request.memory = run.lab.memory;
   state.request.threads = run.lab.threads;
   state.view = view_settings(options.view);
   state.layout = find_layout(options.layout).key;
-  state.ui_scale = options.scale;
-  state.request.metric = find_metric(options.metric).key;
+  state.ui_scale = options.scale.value_or(0.0f);
+  if (!options.metric.empty()) {
+    state.request.metric = find_metric(options.metric).key;
+  }
   if (!options.reference.empty()) {
     state.dock.open = true;
   }
@@ -137,13 +184,15 @@ void run_screenshot(const ScreenshotOptions& options) {
   if (output.extension() != ".png") {
     throw UsageError(fmt::format("-o: '{}' is no .png", options.output));
   }
-  const PictureSize size = parse_size("--size", options.window);
+  const PictureSize size = window_size(options);
+  check_views(options);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  const Run run = prepare_run(options.run, lane_count);
-  LabState state = state_of(options, run);
+  std::vector<SamplingPolicy> policies = shown_policies(options, stop);
+  const Run run = prepare_run(options.run, policies.size());
+  LabState state = state_of(options, run, std::move(policies));
   truth_for(state.request.policies, reference_at(options.reference, run));  // throws if it is unfit
   StagedFiles files(output.parent_path(), {output.filename().string()});
-  EndSeeker end(stop, state.request.metric, state);
+  EndSeeker end(or_frames(stop), state.request.metric, state);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};
@@ -184,6 +233,7 @@ void run_screenshot(const ScreenshotOptions& options) {
     draw();
   }
   files.finish([&] { write_png(files.stage(output.filename().string()), offscreen.read()); });
+  tell_if_short(*driver.snapshot(), stop);
   report_rejected(*driver.snapshot(), options.run);
 }
 
@@ -201,10 +251,8 @@ void add_screenshot_command(CLI::App& app, const Program&) {
   command->add_option("--size", options->window, "Of the window")
       ->type_name("WxH")
       ->capture_default_str();
-  command
-      ->add_option("--scale", options->scale,
-                   "Of text and controls; what suits the size if not given")
-      ->check(number_between(0.5, 8.0));
+  add_number(*command, "--scale", options->scale, ui_scale_range,
+             "Of text and controls; what suits the size if not given");
   command->add_option("--layout", options->layout, "columns, grid or large")->capture_default_str();
   command
       ->add_option("--views", options->views,
@@ -212,8 +260,9 @@ void add_screenshot_command(CLI::App& app, const Program&) {
       ->delimiter(',')
       ->expected(1, 2)
       ->capture_default_str();
-  command->add_option("--metric", options->metric, "Of the dock's chart: " + row_ids(metrics()))
-      ->capture_default_str();
+  command->add_option("--metric", options->metric,
+                      fmt::format("Of the dock's chart, with --reference; relmse if not given: {}",
+                                  row_ids(metrics())));
   command->add_option("-o,--output", options->output, "A .png")->required();
   command->footer(
       "All lanes are shown at the frame where the last of them meets its end.\n"

@@ -7,7 +7,8 @@
 #include <tbb/task_arena.h>
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
+#include "app/output_check.h"
 #include "app/progress.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
@@ -126,13 +127,13 @@ void print_summary(const StabilityOptions& options, const StabilitySummary& summ
 
 void run_stability_command(const StabilityCommand& command, const Program& program) {
   const StabilityOptions options = options_of(command);
-  StagedFiles files(command.out);
+  const int threads = usable_threads(command.run);
+  StagedFiles files(command.out, stability_file_names());
   std::vector<CaseResult> results;
   {
     const Interrupt interrupt;
     Progress progress("stability");
-    tbb::task_arena arena(command.run.threads > 0 ? command.run.threads
-                                                  : tbb::task_arena::automatic);
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute([&] {
       results = run_stability(
           options, [&](double done, std::string_view what) { progress.update(done, what); },
@@ -170,27 +171,16 @@ void add_stability_command(CLI::App& app, const Program& program) {
           "that none is ever done")
       ->capture_default_str();
   add_seeds_option(*command, options->seeds, 2);
-  command
-      ->add_option("--spp", options->spp,
-                   "The common budget, mean samples per pixel; a pixel may have 8 times as many")
-      ->check(number_between(9.0, 8000.0))
-      ->capture_default_str();
-  command
-      ->add_option("--target", options->target,
-                   "A pixel is wrong above this squared relative error, (x - r)^2 / (r^2 + 0.01)")
-      ->check(number_above_zero())
-      ->capture_default_str();
-  command
-      ->add_option("--truth-spp", options->truth_spp,
-                   "At most so many samples per pixel for what is compared with")
-      ->check(CLI::Range(512u, 1u << 24))
-      ->capture_default_str();
-  command
-      ->add_option("--confidence", options->confidence, "Of all intervals together, such as 0.99")
-      ->check(number_between(0.5, 0.999999))
-      ->capture_default_str();
+  add_number(*command, "--spp", options->spp, {9.0, 8000.0},
+             "The common budget, mean samples per pixel; a pixel may have 8 times as many");
+  add_number(*command, "--target", options->target, above_zero<double>,
+             "A pixel is wrong above this squared relative error, (x - r)^2 / (r^2 + 0.01)");
+  add_number(*command, "--truth-spp", options->truth_spp, {512, 1u << 24},
+             "At most so many samples per pixel for what is compared with");
+  add_number(*command, "--confidence", options->confidence, confidence_range,
+             "Of all intervals together, such as 0.99");
   add_threads_option(*command, options->run);
-  command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
+  add_out_option(*command, options->out);
   command->footer(
       "Writes matrix.png, matrix.pdf, stability.csv (one row a number, with its interval) and "
       "trials.csv (one row a number and seed).\nRows cost_... and error_... of stability.csv: how "

@@ -3,21 +3,16 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
 
 namespace quartet {
 
 void add_stop_options(CLI::App& command, StopOptions& options) {
-  command
-      .add_option("--frames", options.frames,
-                  "Stop after so many rounds of sampling; 15 if no other end is given")
-      ->check(CLI::Range(1u, 1u << 31));
-  command.add_option("--spp", options.spp, "Stop at this mean of samples per pixel")
-      ->check(number_above_zero());
-  command
-      .add_option("--seconds", options.seconds,
-                  "Stop after so much time, as if the lane had run alone")
-      ->check(number_above_zero());
+  add_number(command, "--frames", options.frames, {1, 1u << 31},
+             "Stop after so many rounds of sampling; 15 if no other end is given");
+  add_number(command, "--spp", options.spp, spp_range, "Stop at this mean of samples per pixel");
+  add_number(command, "--seconds", options.seconds, above_zero<double>,
+             "Stop after so much time, as if the lane had run alone");
   command
       .add_option("--error", options.error,
                   "Stop at this error against --reference, such as relmse=0.01; metrics: quartet "
@@ -38,6 +33,10 @@ StopConditions stop_conditions(const StopOptions& options, bool has_reference) {
           "--error needs --reference REF.exr to measure the error; quartet reference makes one");
     }
   }
+  return stop;
+}
+
+StopConditions or_frames(StopConditions stop) {
   if (!stop.any()) {
     stop.frames = 15;
   }

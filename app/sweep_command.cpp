@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -8,7 +7,8 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/lane_option.h"
-#include "app/number_check.h"
+#include "app/number_option.h"
+#include "app/output_check.h"
 #include "app/progress.h"
 #include "app/reference_option.h"
 #include "app/rejected_report.h"
@@ -31,7 +31,7 @@ struct SweepOptions {
   SweepPlan plan;
   std::string range = "0.1:10";
   std::string metric = "relmse";
-  StopOptions stop{.frames = 15, .spp = 64.0, .seconds = {}, .error = {}};
+  StopOptions stop;
   std::string reference;
   std::uint32_t reference_spp = 1024;
   bool verify_time = false;
@@ -39,23 +39,23 @@ struct SweepOptions {
 };
 
 void parse_range(const std::string& text, SweepPlan& plan) {
-  const char* const end = text.data() + text.size();
-  const auto [colon, low_error] = std::from_chars(text.data(), end, plan.low);
-  bool good = low_error == std::errc() && colon != end && *colon == ':';
-  if (good) {
-    const auto [stop, high_error] = std::from_chars(colon + 1, end, plan.high);
-    good = high_error == std::errc() && stop == end;
+  constexpr NumberRange<double> factors{1e-6, 1e6};
+  const std::size_t colon = text.find(':');
+  const auto low = number_in(std::string_view(text).substr(0, colon), factors);
+  const auto high = number_in(
+      colon == std::string::npos ? "" : std::string_view(text).substr(colon + 1), factors);
+  if (!low || !high || *low >= *high) {
+    throw UsageError(fmt::format(
+        "--range: '{}' is no range of factors; write LOW:HIGH with LOW < HIGH, both from {}, such "
+        "as 0.1:10",
+        text, range_text(factors)));
   }
-  constexpr double most = 1e6;
-  if (!good || !(plan.low >= 1.0 / most && plan.low < plan.high && plan.high <= most)) {
-    throw UsageError(
-        fmt::format("--range: '{}' is no range of factors; write LOW:HIGH with 0 < LOW < HIGH, "
-                    "such as 0.1:10",
-                    text));
-  }
+  plan.low = *low;
+  plan.high = *high;
 }
 
-std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options) {
+std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options,
+                                           const StopConditions& stop) {
   LaneOptions lanes;
   lanes.estimators = options.estimators;
   if (lanes.estimators.empty()) {
@@ -63,7 +63,7 @@ std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options) {
       lanes.estimators.emplace_back(row.id);
     }
   }
-  std::vector<SamplingPolicy> policies = policies_of(lanes, options.run);
+  std::vector<SamplingPolicy> policies = policies_of(lanes, options.run.policy, stop);
   // The baseline is in every sweep, with frames for its thresholds.
   std::erase_if(policies, [](const SamplingPolicy& policy) {
     return estimator(policy.estimator).channels == 0;
@@ -74,14 +74,17 @@ std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options) {
 SweepPlan sweep_plan(const SweepOptions& options) {
   SweepPlan plan = options.plan;
   parse_range(options.range, plan);
-  plan.policies = sweep_policies(options);
+  plan.stop = stop_conditions(options.stop, true);
+  plan.policies = sweep_policies(options, plan.stop);
+  // Beside what else is given.
+  plan.stop.frames = plan.stop.frames.value_or(15);
+  plan.stop.spp = plan.stop.spp.value_or(64.0);
   plan.metrics = {find_metric(options.metric).key};
   for (const MetricId id : {MetricId::relmse, MetricId::mse, MetricId::flip}) {
     if (id != plan.metrics.front()) {
       plan.metrics.push_back(id);
     }
   }
-  plan.stop = stop_conditions(options.stop, true);
   return plan;
 }
 
@@ -188,7 +191,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   Run run = prepare_run(options.run, 1);
   // Variances would cost every run memory and time, and no estimator that does not ask for them.
   run.lab.statistics = {};
-  StagedFiles files(options.out);
+  StagedFiles files(options.out, sweep_file_names());
   std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
   if (!reference) {
     reference = reference_for(run, options.reference_spp, program.command_line);
@@ -233,11 +236,8 @@ void add_sweep_command(CLI::App& app, const Program& program) {
       ->add_option("--estimators", options->estimators,
                    "Which, separated by commas; all if not given. uniform is always the baseline")
       ->delimiter(',');
-  command
-      ->add_option("--thresholds", options->plan.thresholds,
-                   "Points of each curve; the default threshold is added where it is none of them")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  add_number(*command, "--thresholds", options->plan.thresholds, {1, 1000},
+             "Points of each curve; the default threshold is added where it is none of them");
   command->add_option("--range", options->range, "Factors on the default thresholds")
       ->type_name("LOW:HIGH")
       ->capture_default_str();
@@ -246,14 +246,10 @@ void add_sweep_command(CLI::App& app, const Program& program) {
       ->capture_default_str();
   add_stop_options(*command, options->stop);
   add_reference_option(*command, options->reference);
-  command
-      ->add_option("--reference-spp", options->reference_spp,
-                   "Of the reference that is made, and kept, where none is given")
-      ->check(CLI::Range(2u, 1u << 30))
-      ->capture_default_str();
+  add_reference_spp_option(*command, options->reference_spp);
   command->add_flag("--verify-time", options->verify_time,
                     "Rerun some points alone, without shared samples, and compare their time");
-  command->add_option("--out", options->out, "Folder for the files, made if need be")->required();
+  add_out_option(*command, options->out);
   command->footer(
       "A point of a curve is where a run ends with the default thresholds times a factor: after "
       "15 frames,\nor at 64 mean samples per pixel, unless told otherwise. Under the policy vote "

@@ -1,12 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/run_options.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/sweep.h"
 
 namespace quartet {
+
+/// The names of all that write_sweep_files writes.
+inline std::vector<std::string> sweep_file_names() {
+  return {"sweep.csv",       "sweep.png",       "sweep.pdf",       "sweep.svg",
+          "calibration.csv", "calibration.png", "calibration.pdf", "calibration.svg"};
+}
 
 /// Everything that a sweep is written with.
 struct SweepReport {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/commands.h"
+#include "app/number_option.h"
 #include "app/run_options.h"
 #include "app/scene_text.h"
 #include "renderer/scene/synthetic.h"
@@ -136,13 +137,12 @@ void add_trace_command(CLI::App& app, const Program&) {
   CLI::App* command = app.add_subcommand("trace", "One sample, vertex by vertex");
   const auto options = std::make_shared<TraceOptions>();
   add_scene_options(*command, options->run);
-  command->add_option("--pixel", options->pixel, "Column and row, from 0,0 at the top left")
-      ->type_name("X,Y")
-      ->delimiter(',')
+  add_numbers(*command, "--pixel", options->pixel, {0, most_picture_side},
+              "Column and row, X,Y, from 0,0 at the top left")
       ->expected(2)
       ->required();
-  command->add_option("--index", options->index, "Which sample of the pixel, from 0")
-      ->capture_default_str();
+  add_number(*command, "--index", options->index, {0, most_spp},
+             "Which sample of the pixel, from 0");
   command->footer(
       "Examples:\n"
       "  quartet trace cornell-checker --pixel 480,270 --index 3\n"

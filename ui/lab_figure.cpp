@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
+#include <optional>
+#include <stdexcept>
 
 #include "renderer/image/ticks.h"
+#include "ui/cairo_page.h"
+#include "ui/figure_layout.h"
 
 namespace quartet {
 namespace {
@@ -37,7 +43,56 @@ Figure grid(std::string title, std::string footer, std::size_t panels) {
   return figure;
 }
 
+/// The largest that panels of this size can make a figure: few texts leave them large, and long
+/// ones take many lines. Only the first of a row has the size, as one decides for all.
+std::array<Figure, 2> extreme_figures(int width, int height, std::size_t panels, bool panel_bars) {
+  const std::string words = [] {
+    std::string text;
+    for (int i = 0; i < 400; ++i) {
+      text += "wide ";
+    }
+    return text;
+  }();
+  const ColorBar bar{{0.0, 1.0, ColorMapId::turbo}, "label", "label"};
+  std::array<Figure, 2> figures{grid("", "", panels), grid(words, words, panels)};
+  for (std::size_t i = 0; i < panels; ++i) {
+    const bool decides = i % std::size_t(figures[0].columns) == 0;
+    FigurePanel plain;
+    plain.image = decides ? DisplayImage(width, height) : DisplayImage(1, 1);
+    FigurePanel wordy = plain;
+    wordy.title = words;
+    wordy.lines = {words, words};
+    plain.bar = wordy.bar = panel_bars ? std::optional(bar) : std::nullopt;
+    figures[0].panels.push_back(std::move(plain));
+    figures[1].panels.push_back(std::move(wordy));
+  }
+  for (Figure& figure : figures) {
+    figure.shared_bar = panel_bars ? std::nullopt : std::optional(bar);
+  }
+  return figures;
+}
+
 }  // namespace
+
+void check_figure_size(const std::string& option, int width, int height, std::size_t panels,
+                       bool panel_bars) {
+  // A panel that is too large alone need not be laid out.
+  double wide = width;
+  double high = height;
+  if (width <= kMaxCairoSide && height <= kMaxCairoSide) {
+    for (const Figure& figure : extreme_figures(width, height, panels, panel_bars)) {
+      const FigureLayout layout = lay_out(figure);
+      wide = std::max(wide, layout.width);
+      high = std::max(high, layout.height);
+    }
+  }
+  if (wide > kMaxCairoSide || high > kMaxCairoSide) {
+    throw std::invalid_argument(fmt::format(
+        "{}: a figure of {} panels of {}x{} has up to {:.0f}x{:.0f} pixels; at most {}x{} would be "
+        "right",
+        option, panels, width, height, wide, high, kMaxCairoSide, kMaxCairoSide));
+  }
+}
 
 std::string threshold_text(const SamplingPolicy& policy) {
   const int channels = estimator(policy.estimator).channels;

@@ -20,4 +20,10 @@ Figure image_figure(const Snapshot& snapshot, const ViewSettings& view, std::str
 Figure heat_figure(const Snapshot& snapshot, const ViewSettings& view, std::string title,
                    std::string footer);
 
+/// Whether a figure of so many panels of this size can be painted, whatever its texts say and with
+/// a colour bar for each panel if they have one. Throws std::invalid_argument that begins with
+/// `option`, the name of the one that decides the size, and says the limit.
+void check_figure_size(const std::string& option, int width, int height, std::size_t panels,
+                       bool panel_bars);
+
 }  // namespace quartet

@@ -226,19 +226,21 @@ void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& p
   });
 }
 
-constexpr AllocationFields votes{.multiplier = true};
-constexpr AllocationFields batches{.first = true, .batch = true};
+constexpr AllocationFields vote_fields{.multiplier = true};
+constexpr AllocationFields batch_fields{.first = true, .batch = true};
 
 constexpr std::array allocation_table{
-    AllocationRow{AllocationId::vote, "vote", "vote", "the 2021 course report", votes, plan_vote},
+    AllocationRow{AllocationId::vote, "vote", "vote", "the 2021 course report", vote_fields,
+                  plan_vote},
     AllocationRow{AllocationId::two_level, "two-level", "two-level",
-                  "Mitchell 1987: 1 sample everywhere, then once 8 more", batches, plan_two_level},
+                  "Mitchell 1987: 1 sample everywhere, then once 8 more", batch_fields,
+                  plan_two_level},
     AllocationRow{AllocationId::batch, "batch", "batch",
-                  "Rigau, Feixas and Sbert 2003: 8 everywhere, then 8 more until done", batches,
-                  plan_batch},
+                  "Rigau, Feixas and Sbert 2003: 8 everywhere, then 8 more until done",
+                  batch_fields, plan_batch},
     AllocationRow{AllocationId::converge, "converge", "converge",
                   "production renderers: 16 everywhere, then 8 more around each pixel not done",
-                  batches, plan_converge},
+                  batch_fields, plan_converge},
 };
 
 constexpr std::array use_table{

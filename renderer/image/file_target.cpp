@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <climits>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -61,6 +62,11 @@ fs::path target_of(const fs::path& name) {
   }
   struct stat status {};
   if (::stat(target.c_str(), &status) != 0) {
+    if (errno == ENAMETOOLONG) {
+      refuse_target(name, fmt::format("it is too long; a name of at most {} bytes, in a path of at "
+                                      "most {}, would be right",
+                                      NAME_MAX, PATH_MAX - 1));
+    }
     if (target != name && !fs::is_directory(target.parent_path(), ignored)) {
       refuse_target(
           name, fmt::format("it is a link to {}, whose folder does not exist", target.string()));

@@ -51,10 +51,4 @@ ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
   return exr;
 }
 
-std::size_t lane_exr_channels(const SamplingPolicy& policy, bool has_reference) {
-  constexpr std::size_t radiance_counts_and_variances = 3 + 2 + 3;
-  return radiance_counts_and_variances + std::size_t(estimator(policy.estimator).channels) +
-         (has_reference ? 1 : 0);
-}
-
 }  // namespace quartet

@@ -14,7 +14,4 @@ inline constexpr std::size_t lane_exr_channels = 12;
 /// what is more than a float holds, the largest float.
 ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane);
 
-/// How many channels that will have, with variances, of a lane that is yet to run.
-std::size_t lane_exr_channels(const SamplingPolicy& policy, bool has_reference);
-
 }  // namespace quartet

@@ -17,11 +17,16 @@ struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A parameter that the scene does not have.
+struct ParameterError : SceneError {
+  using SceneError::SceneError;
+};
+
 /// Values for the `$name` parameters of a scene file; they win over its `<default>` elements.
 using SceneParameters = std::map<std::string, std::string>;
 
 /// Reads a Mitsuba 3 XML file. What is unknown but harmless is left out and named in
-/// Scene::warnings, once each. Throws SceneError.
+/// Scene::warnings, once each. Throws SceneError, ParameterError among them.
 Scene load_scene(const std::filesystem::path& path, const SceneParameters& parameters = {});
 
 /// The scenes that come with Quartet: names without extension, sorted, those that show where

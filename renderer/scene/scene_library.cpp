@@ -59,7 +59,7 @@ std::string lasting_scene_name(std::string_view name) {
 Scene open_scene(std::string_view name, const SceneParameters& parameters) {
   if (name.starts_with(synthetic_prefix)) {
     if (!parameters.empty()) {
-      throw SceneError(
+      throw ParameterError(
           fmt::format("{}: takes no parameters, '{}' is one", name, parameters.begin()->first));
     }
     return synthetic_scene(find_synthetic(name.substr(synthetic_prefix.size())));

@@ -155,8 +155,8 @@ void XmlDocument::replace_parameters(const SceneParameters& overrides) {
   });
   for (const auto& [name, value] : overrides) {
     if (names.contains(name)) continue;
-    throw SceneError(fmt::format("{}: has no parameter '{}' (its parameters: {})", path_.string(),
-                                 name, list_or(names, "none")));
+    throw ParameterError(fmt::format("{}: has no parameter '{}' (its parameters: {})",
+                                     path_.string(), name, list_or(names, "none")));
   }
 }
 

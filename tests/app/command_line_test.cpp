@@ -48,6 +48,7 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(figure({"--seed", "x"}), "--seed");
   expect_usage_error(figure({"--max-spp", "0"}), "--max-spp");
   expect_usage_error(figure({"-D", "novalue"}), "write name=value");
+  expect_usage_error(figure({"-D", "a=1", "-D", "a=2"}), "-D: 'a' is given twice");
   expect_usage_error({"figure", "cornell-box"}, "--out");
   expect_usage_error({"paint"}, "'paint' is neither a command");
 
@@ -165,7 +166,7 @@ TEST(CommandLine, RenderStopsAtItsConditions) {
   EXPECT_EQ(samples({"--spp", "20"}), 20);
   EXPECT_EQ(samples({"--spp", "20", "--frames", "4"}), 4);
   EXPECT_EQ(samples({"--seconds", "1e-9"}), 1);
-  EXPECT_EQ(samples({"--spp", "20", "--max-spp", "6"}), 6) << "no condition would ever be met";
+  EXPECT_EQ(samples({"--frames", "20", "--max-spp", "6"}), 6) << "no condition would ever be met";
 }
 
 TEST(CommandLine, ListWalksTheTables) {

@@ -9,22 +9,34 @@ namespace {
 
 TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
   for (const Estimator& row : estimators()) {
-    SamplingPolicy policy = default_policy(row.key);
-    for (int c = 0; c < row.channels; ++c) {
-      policy.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
+    for (const AllocationRow& kind : allocations()) {
+      SamplingPolicy policy = default_policy(row.key);
+      for (int c = 0; c < row.channels; ++c) {
+        policy.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
+      }
+      policy.max_spp = 77;
+      policy.use = SampleUse::unbiased;
+      SamplingPolicy all = policy;
+      all.allocation = {kind.key, 4, 12, 0.1f, true};
+      // What is not read is not in the word, and comes back as it is by default.
+      if (row.channels > 0) {
+        policy.allocation.kind = kind.key;
+      }
+      const AllocationFields read_fields = fields_read(policy);
+      if (read_fields.first && read_fields.batch) {
+        policy.allocation.first = 4;
+        policy.allocation.batch = 12;
+      }
+      if (read_fields.multiplier) {
+        policy.allocation.multiplier = 0.1f;
+        policy.allocation.stochastic_rounding = true;
+      }
+      SamplingPolicy read = policy_of_lane(lane_text(all), {});
+      for (int c = row.channels; c < 3; ++c) {
+        read.thresholds[std::size_t(c)] = policy.thresholds[std::size_t(c)];
+      }
+      EXPECT_EQ(read, policy) << lane_text(all);
     }
-    policy.allocation.kind = AllocationId::converge;
-    policy.allocation.multiplier = 0.1f;
-    policy.allocation.stochastic_rounding = true;
-    policy.max_spp = 77;
-    policy.use = SampleUse::unbiased;
-    policy.allocation.first = 4;
-    policy.allocation.batch = 12;
-    SamplingPolicy read = policy_of_lane(lane_text(policy), {});
-    for (int c = row.channels; c < 3; ++c) {
-      read.thresholds[std::size_t(c)] = policy.thresholds[std::size_t(c)];
-    }
-    EXPECT_EQ(read, policy) << lane_text(policy);
   }
 }
 

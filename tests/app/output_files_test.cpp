@@ -63,7 +63,7 @@ TEST(OutputFiles, WhatCouldNotBeReadAgainIsRefusedBeforeTheWork) {
     std::vector<std::string> wide = words;
     wide.insert(wide.end(), {"--size", "65537x1"});
     const Result result = run(wide);
-    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.code, 2);
     EXPECT_NE(result.error.find("could not be read again; sides of at most 65536"),
               std::string::npos)
         << result.error;

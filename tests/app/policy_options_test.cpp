@@ -1,0 +1,165 @@
+// What can be said of a policy, and that nothing is said in vain.
+
+#include "app/policy_options.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "app/lane_option.h"
+#include "tests/app/program.h"
+#include "tests/image/temp_folder.h"
+
+namespace quartet {
+namespace {
+
+using LaneWords = std::set<std::string>;
+
+/// By policy, what is read of a lane's words beside policy, mode and max-spp.
+const std::map<std::string, LaneWords> read_under{{"vote", {"multiplier", "stochastic-rounding"}},
+                                                  {"two-level", {"first", "batch"}},
+                                                  {"batch", {"first", "batch"}},
+                                                  {"converge", {"first", "batch"}}};
+
+const std::map<std::string, std::string> value_of_word{
+    {"multiplier", "multiplier=2"},
+    {"stochastic-rounding", "stochastic-rounding"},
+    {"first", "first=3"},
+    {"batch", "batch=5"}};
+
+/// The same as an option for all lanes.
+PolicyOptions option_of(const std::string& word) {
+  PolicyOptions options;
+  if (word == "multiplier") {
+    options.multiplier = 2.0f;
+  } else if (word == "first") {
+    options.first_samples = 3;
+  } else if (word == "batch") {
+    options.batch_samples = 5;
+  } else {
+    options.stochastic_rounding = true;
+  }
+  return options;
+}
+
+std::string error_with(const LaneOptions& lanes, const PolicyOptions& options,
+                       const StopConditions& stop = {}) {
+  return error_of([&] { policies_of(lanes, options, stop); });
+}
+
+TEST(PolicyOptions, WhatThePolicyDoesNotReadIsRefused) {
+  ASSERT_EQ(allocations().size(), read_under.size());
+  for (const auto& [policy, reads] : read_under) {
+    for (const auto& [word, value] : value_of_word) {
+      for (const Estimator& row : estimators()) {
+        SCOPED_TRACE(fmt::format("{} under {} with {}", row.id, policy, value));
+        const bool read = row.channels > 0 && reads.contains(word);
+        PolicyOptions options = option_of(word);
+        options.policy = row.channels > 0 ? policy : "";
+        const std::string error = error_with({{std::string(row.id)}, {}}, options);
+        EXPECT_EQ(error.empty(), read) << error;
+        if (!read) {
+          EXPECT_NE(error.find(fmt::format("--{}", word)), std::string::npos) << error;
+          EXPECT_NE(error.find("has no effect"), std::string::npos) << error;
+          EXPECT_NE(
+              error.find(word == "first" || word == "batch" ? "policies two-level, batch, converge"
+                                                            : "policy vote"),
+              std::string::npos)
+              << error;
+        }
+        const std::string lane = row.channels > 0
+                                     ? fmt::format("{}:policy={},{}", row.id, policy, value)
+                                     : fmt::format("{}:{}", row.id, value);
+        const std::string lane_error = error_with({{}, {lane}}, {});
+        EXPECT_EQ(lane_error.empty(), read) << lane_error;
+        if (!read) {
+          EXPECT_NE(lane_error.find("--lane: " + word), std::string::npos) << lane_error;
+        }
+      }
+    }
+  }
+}
+
+TEST(PolicyOptions, UniformHasNoPolicy) {
+  PolicyOptions options;
+  options.policy = "batch";
+  EXPECT_NE(error_with({{"uniform"}, {}}, options).find("--policy has no effect"),
+            std::string::npos);
+  EXPECT_NE(error_with({{}, {"uniform:policy=batch"}}, {}).find("policy has no effect"),
+            std::string::npos);
+  EXPECT_EQ(error_with({{"uniform", "kl"}, {}}, options), "");
+}
+
+TEST(PolicyOptions, OneLaneOfSeveralThatReadsItIsEnough) {
+  EXPECT_EQ(error_with({{"kl", "cycles"}, {}}, option_of("multiplier")), "");
+  EXPECT_EQ(error_with({{"kl", "cycles"}, {}}, option_of("first")), "");
+  EXPECT_NE(error_with({{"kl", "chi2"}, {}}, option_of("first")), "");
+  // It has its own.
+  EXPECT_NE(error_with({{}, {"kl:multiplier=1", "cycles"}}, option_of("multiplier"))
+                .find("has its own multiplier"),
+            std::string::npos);
+  EXPECT_EQ(error_with({{}, {"kl:multiplier=1", "chi2"}}, option_of("multiplier")), "");
+}
+
+TEST(PolicyOptions, ALaneIsReadWordByWord) {
+  for (const std::string lane :
+       {"kl:multiplier=1,multiplier=2", "kl:mode=reuse,mode=unbiased", "kl:stochastic-rounding=1",
+        "kl:multiplier", "kl:max-spp=0", "kl:max-spp=2147483648", "kl:multiplier=1001",
+        "cycles:first=65536", "cycles:batch=1e2", "kl:+1", "kl:1e31",
+        "kl:stochastic-rounding,"
+        "stochastic-rounding"}) {
+    EXPECT_NE(error_with({{}, {lane}}, {}).find("--lane: '" + lane), std::string::npos) << lane;
+  }
+}
+
+TEST(PolicyOptions, AsManySamplesAsAreAskedForCanBeTaken) {
+  const auto most = [](const StopConditions& stop, const PolicyOptions& options = {},
+                       const std::string& lane = "uniform") {
+    return policies_of({{}, {lane}}, options, stop).front().max_spp;
+  };
+  const std::uint32_t usual = SamplingPolicy().max_spp;
+  EXPECT_EQ(most({}), usual);
+  EXPECT_EQ(most({.spp = usual}), usual);
+  EXPECT_EQ(most({.spp = usual + 1.0}), most_spp);
+  EXPECT_EQ(most({.frames = usual + 1}), most_spp);
+  PolicyOptions capped;
+  capped.max_spp = 100;
+  EXPECT_EQ(most({.frames = usual + 1}, capped), 100u);
+  EXPECT_EQ(most({.frames = usual + 1}, {}, "uniform:max-spp=70"), 70u);
+}
+
+TEST(PolicyOptions, ContradictionsAreRefused) {
+  PolicyOptions options;
+  options.max_spp = 6;
+  EXPECT_NE(error_with({{"kl"}, {}}, options, {.spp = 20.0}).find("--max-spp 6"),
+            std::string::npos);
+  EXPECT_EQ(error_with({{"kl"}, {}}, options, {.spp = 6.0}), "");
+  options.mode = "unbiased";  // twice the samples
+  EXPECT_EQ(error_with({{"kl"}, {}}, options, {.spp = 12.0}), "");
+  options.first_samples = 7;
+  EXPECT_NE(error_with({{"cycles"}, {}}, options).find("--first-samples 7"), std::string::npos);
+}
+
+TEST(PolicyOptions, WhatIsCappedIsTold) {
+  const TempFolder folder;
+  const auto said = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render", "cornell-box", "--size",
+                                   "8x8",    "-o",          (folder / "a.exr").string()};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = run(words);
+    EXPECT_EQ(result.code, 0) << result.error;
+    return result.error;
+  };
+  EXPECT_EQ(said({"--frames", "3"}), "");
+  EXPECT_EQ(said({"--frames", "9", "--max-spp", "6"}),
+            "quartet: uniform ended after 6 frames, at 6.00 mean spp, before --frames 9: no pixel "
+            "may have another sample; 64 of 64 have the 6 that --max-spp allows\n");
+  EXPECT_EQ(
+      said({"--estimator", "kl", "--threshold", "1e9", "--policy", "two-level", "--spp", "30"}),
+      "quartet: kl ended after 1 frames, at 1.00 mean spp, before --spp 30: no pixel wants "
+      "another sample\n");
+}
+
+}  // namespace
+}  // namespace quartet
