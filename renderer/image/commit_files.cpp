@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "renderer/image/folder_entries.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/system_calls.h"
 
@@ -25,17 +26,15 @@ namespace {
 
 /// Whether a process has the folder as its own: it would be left in one that is gone.
 bool somebody_is_in(const fs::path& folder) {
-  std::error_code error;
-  for (auto it = fs::directory_iterator("/proc", error); it != fs::directory_iterator();
-       it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    std::error_code ignored;
-    if (std::isdigit(static_cast<unsigned char>(name.front())) != 0 &&
-        fs::equivalent(it->path() / "cwd", folder, ignored)) {
-      return true;
-    }
-  }
-  return bool(error);  // nobody can tell
+  struct stat wanted {};
+  bool found = ::stat(folder.c_str(), &wanted) != 0;
+  const bool known = each_entry("/proc", [&](const std::string& process) {
+    struct stat own {};
+    found = found || (std::isdigit(static_cast<unsigned char>(process.front())) != 0 &&
+                      ::stat(("/proc/" + process + "/cwd").c_str(), &own) == 0 &&
+                      own.st_dev == wanted.st_dev && own.st_ino == wanted.st_ino);
+  });
+  return found || !known;
 }
 
 /// Gives a new folder what the old one has; false if it has what cannot be given.
@@ -53,16 +52,15 @@ bool take_after(int made, const fs::path& old) {
          ::fchmod(made, status.st_mode & 07777) == 0;
 }
 
-/// What has come into the old folder while it was still the one of its name.
+/// What has come into the old folder while it was still the one of its name. Takes no memory.
 void rescue_strangers(const fs::path& old, const fs::path& folder) {
-  std::error_code ignored;
-  for (auto it = fs::directory_iterator(old, ignored); it != fs::directory_iterator();
-       it.increment(ignored)) {
-    const fs::path there = folder / it->path().filename();
-    if (!fs::exists(fs::symlink_status(there, ignored))) {
-      fs::rename(it->path(), there, ignored);
-    }
-  }
+  const int from = ::open(old.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int to = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  each_entry(old.c_str(), [&](const char* name) {
+    static_cast<void>(::renameat2(from, name, to, name, RENAME_NOREPLACE) == 0);
+  });
+  ::close(from);
+  ::close(to);
 }
 
 [[noreturn]] void fail_to_name(const fs::path& final, int error) {
@@ -81,19 +79,21 @@ bool StagedFiles::exchange_folder() {
     return false;
   }
   StagingFolder& staging = *stagings_.front();
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const bool replaced = std::ranges::find(staged_, name, &Staged::name) != staged_.end() &&
-                          entry.symlink_status(error).type() == fs::file_type::regular;
-    if (!replaced && name != staging.path().filename()) {
-      return false;
-    }
-  }
-  if (error || somebody_is_in(folder) || !take_after(staging.descriptor(), folder)) {
+  bool replaced = true;
+  const bool readable = each_entry(folder.c_str(), [&](const std::string& name) {
+    struct stat status {};
+    replaced =
+        replaced && (name == staging.path().filename() ||
+                     (std::ranges::find(staged_, name, &Staged::name) != staged_.end() &&
+                      ::lstat((folder / name).c_str(), &status) == 0 && S_ISREG(status.st_mode)));
+  });
+  if (!readable || !replaced || somebody_is_in(folder) ||
+      !take_after(staging.descriptor(), folder)) {
     return false;
   }
   const fs::path inside = staging.path().parent_path();
-  if (system_calls().fsync(staging.descriptor()) != 0 || !staging.move_to(folder.parent_path())) {
+  const fs::path around = folder.parent_path();
+  if (system_calls().fsync(staging.descriptor()) != 0 || !staging.move_to(around)) {
     return false;
   }
   // Locked by this process already, as the folder that is written to: nobody takes the old one for
@@ -104,7 +104,8 @@ bool StagedFiles::exchange_folder() {
     }
     return false;
   }
-  sync_folder(folder.parent_path());
+  // From here on nothing may fail.
+  sync_folder(around);
   rescue_strangers(staging.path(), folder);
   return true;
 }
@@ -118,22 +119,30 @@ void StagedFiles::rename_each() {
     file.replaces = fs::exists(file.final, ignored);
     if (set && file.replaces) {
       // Without one, an error later cannot be taken back: not all disks have links.
-      static_cast<void>(calls.link(file.final.c_str(), file.backup().c_str()) == 0);
+      const fs::path backup = file.staging->path() / backup_name(file.name);
+      static_cast<void>(calls.link(file.final.c_str(), backup.c_str()) == 0);
     }
   }
-  for (std::size_t i = 0; set && i < stagings_.size(); ++i) {
-    if (!stagings_[i]->begin_commit()) {
-      const int error = errno;
-      take_back(0);
-      fail_to_name(stagings_[i]->parent(), error);
+  std::size_t renamed = 0;
+  try {
+    for (const auto& staging : stagings_) {
+      if (set && !staging->begin_commit()) {
+        fail_to_name(staging->parent(), errno);
+      }
     }
-  }
-  for (std::size_t i = 0; i < staged_.size(); ++i) {
-    if (calls.rename(staged_[i].temporary().c_str(), staged_[i].final.c_str()) != 0) {
-      const int error = errno;
-      take_back(i);
-      fail_to_name(staged_[i].final, error);
+    for (Staged& file : staged_) {
+      file.source = file.temporary();
+      file.backup = file.staging->path() / backup_name(file.name);
     }
+    for (const Staged& file : staged_) {
+      if (calls.rename(file.source.c_str(), file.final.c_str()) != 0) {
+        fail_to_name(file.final, errno);
+      }
+      ++renamed;
+    }
+  } catch (...) {
+    take_back(renamed);
+    throw;
   }
   for (const auto& staging : stagings_) {
     sync_folder(staging->parent());
@@ -146,7 +155,7 @@ void StagedFiles::take_back(std::size_t renamed) {
   bool undone = true;
   for (std::size_t i = renamed; i-- > 0;) {
     const Staged& file = staged_[i];
-    const int result = file.replaces ? std::rename(file.backup().c_str(), file.final.c_str())
+    const int result = file.replaces ? std::rename(file.backup.c_str(), file.final.c_str())
                                      : ::unlink(file.final.c_str());
     undone = undone && result == 0;
   }

@@ -78,8 +78,9 @@ void StagedFiles::make_folder() {
     missing.push_back(each);
   }
   for (auto each = missing.rbegin(); each != missing.rend(); ++each) {
-    if (fs::create_directory(*each, error)) {
-      created_folders_.emplace(created_folders_.begin(), *each, Leftover(*each));
+    created_folders_.emplace(created_folders_.begin(), *each, Leftover(*each));
+    if (!fs::create_directory(*each, error)) {
+      created_folders_.erase(created_folders_.begin());
     }
   }
   std::error_code ignored;
@@ -125,7 +126,8 @@ fs::path StagedFiles::stage(std::string_view final_name) {
   if (std::ranges::find(staged_, final, &Staged::final) != staged_.end()) {
     throw std::runtime_error(fmt::format("{} would be written twice", final.string()));
   }
-  staged_.push_back({&staging_in(final.parent_path()), final.filename().string(), final, false});
+  staged_.push_back(
+      {&staging_in(final.parent_path()), final.filename().string(), final, false, {}, {}});
   fs::path temporary = staged_.back().temporary();
   leftovers_.emplace_back(temporary);
   return temporary;

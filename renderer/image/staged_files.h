@@ -71,10 +71,11 @@ class StagedFiles {
     StagingFolder* staging;
     std::string name;  ///< in both folders
     std::filesystem::path final;
-    bool replaces = false;  ///< there is one of that name, once commit() has begun
+    // Known once commit() renames, so that it needs no memory between two files.
+    bool replaces = false;  ///< whether there is one of that name
+    std::filesystem::path source, backup;
 
     std::filesystem::path temporary() const { return staging->path() / name; }
-    std::filesystem::path backup() const { return staging->path() / backup_name(name); }
   };
 
   void make_folder();

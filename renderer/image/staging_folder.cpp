@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "renderer/image/folder_entries.h"
 #include "renderer/system_calls.h"
 
 namespace quartet {
@@ -76,30 +77,24 @@ std::string random_name() {
   return name;
 }
 
-/// The names of the files in a folder, without its folders.
-std::vector<std::string> file_names(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (auto it = fs::directory_iterator(folder, ignored); it != fs::directory_iterator();
-       it.increment(ignored)) {
-    if (!it->is_directory(ignored) || it->is_symlink(ignored)) {
-      names.push_back(it->path().filename().string());
-    }
-  }
-  return names;
-}
-
+/// Takes no memory: destructors call it.
 void remove_with_files(const fs::path& folder) {
-  std::error_code ignored;
-  for (const std::string& name : file_names(folder)) {
-    fs::remove(folder / name, ignored);
+  const int opened = open_folder(folder);
+  if (opened < 0) {
+    return;
   }
-  fs::remove(folder, ignored);  // unless somebody has put a folder into it
+  each_entry(folder.c_str(), [&](const char* name) { ::unlinkat(opened, name, 0); });
+  ::close(opened);
+  ::rmdir(folder.c_str());  // unless somebody has put a folder into it
 }
 
 void roll_forward(const fs::path& staging, const fs::path& parent, const std::string& last) {
-  std::vector<std::string> names = file_names(staging);
-  std::erase_if(names, [](const std::string& name) { return name.starts_with(backup_prefix); });
+  std::vector<std::string> names;
+  each_entry(staging.c_str(), [&](const std::string& name) {
+    if (!name.starts_with(backup_prefix)) {
+      names.push_back(name);
+    }
+  });
   std::ranges::stable_partition(names, [&](const std::string& name) { return name != last; });
   for (const std::string& name : names) {
     if (system_calls().rename((staging / name).c_str(), (parent / name).c_str()) != 0) {
@@ -110,20 +105,35 @@ void roll_forward(const fs::path& staging, const fs::path& parent, const std::st
   remove_with_files(staging);
 }
 
-void clear_if_dead(const fs::path& staging, const fs::path& parent, const std::string& last) {
-  const int folder = open_folder(staging);
-  if (folder < 0) {
-    return;
-  }
-  if (is_mine(folder) && is_of_this_machine(folder) && ::flock(folder, LOCK_EX | LOCK_NB) == 0 &&
-      is_at(folder, staging)) {
-    if (staging.extension() == committing) {
-      roll_forward(staging, parent, last);
-    } else {
-      remove_with_files(staging);
+/// An open folder that is closed with its block.
+class OpenedFolder {
+ public:
+  explicit OpenedFolder(const fs::path& path) : folder_(open_folder(path)) {}
+  ~OpenedFolder() {
+    if (folder_ >= 0) {
+      ::close(folder_);
     }
   }
-  ::close(folder);
+  OpenedFolder(const OpenedFolder&) = delete;
+  OpenedFolder& operator=(const OpenedFolder&) = delete;
+
+  int get() const { return folder_; }
+
+ private:
+  int folder_;
+};
+
+void clear_if_dead(const fs::path& staging, const fs::path& parent, const std::string& last) {
+  const OpenedFolder folder(staging);
+  if (folder.get() < 0 || !is_mine(folder.get()) || !is_of_this_machine(folder.get()) ||
+      ::flock(folder.get(), LOCK_EX | LOCK_NB) != 0 || !is_at(folder.get(), staging)) {
+    return;
+  }
+  if (staging.extension() == committing) {
+    roll_forward(staging, parent, last);
+  } else {
+    remove_with_files(staging);
+  }
 }
 
 }  // namespace
@@ -132,13 +142,13 @@ StagingFolder::StagingFolder(const fs::path& parent) : parent_(parent) {
   constexpr int tries = 100;
   for (int i = 0; i < tries; ++i) {
     path_ = parent / (random_name() + std::string(unfinished));
+    leftover_.emplace(path_);
     if (system_calls().mkdir(path_.c_str(), 0700) != 0) {
       if (errno == EEXIST) {
         continue;
       }
       break;
     }
-    leftover_.emplace(path_);
     folder_ = open_folder(path_);
     // Until it is locked, one that looks for the dead may take it for theirs.
     const bool taken =
@@ -198,15 +208,12 @@ void StagingFolder::give_up_commit() {
 
 void clear_dead_staging(const fs::path& parent, const std::string& last) {
   std::vector<fs::path> found;
-  std::error_code ignored;
-  for (auto it = fs::directory_iterator(parent, ignored); it != fs::directory_iterator();
-       it.increment(ignored)) {
-    const fs::path name = it->path().filename();
+  each_entry(parent.c_str(), [&](const fs::path& name) {
     if (name.string().starts_with(staging_prefix) &&
         (name.extension() == unfinished || name.extension() == committing)) {
-      found.push_back(it->path());
+      found.push_back(parent / name);
     }
-  }
+  });
   for (const fs::path& staging : found) {
     clear_if_dead(staging, parent, last);
   }

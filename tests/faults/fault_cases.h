@@ -1,8 +1,14 @@
 #pragma once
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "tests/faults/failing_new.h"
@@ -17,11 +23,12 @@ struct FaultOutcome {
   std::string error;  ///< what the work threw; empty if nothing
 };
 
-/// Does the work again and again, and lets in turn each of its calls of the operating system fail;
-/// the last time none fails. `judge` looks at what each time left.
-inline void fail_each_call(const std::function<void()>& work,
+/// Does the work again and again, and lets in turn each of its calls of the operating system fail,
+/// or every `stride`-th if the work takes long; the last time none fails. `judge` looks at what
+/// each time left.
+inline void fail_each_call(const std::function<void()>& work, int stride,
                            const std::function<void(const FaultOutcome&)>& judge) {
-  for (int n = 1;; ++n) {
+  for (int n = 1;; n += stride) {
     FaultOutcome outcome;
     bool failed = false;
     {
@@ -34,27 +41,58 @@ inline void fail_each_call(const std::function<void()>& work,
     judge(outcome);
     if (!failed) {
       EXPECT_EQ(outcome.error, "");
-      EXPECT_GT(n, 1);
       return;
     }
   }
 }
 
-/// The same with allocations: each of the first `all`, then ever fewer of the others.
-inline void fail_each_allocation(const std::function<void()>& work, long all,
+/// Does the work in a process of its own, and throws what it threw. The destructors of the JSON
+/// library allocate, so that it ends the program where that fails; here that is an error.
+inline void in_a_child(const std::function<void()>& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const int null = open("/dev/null", O_WRONLY);
+    dup2(null, STDERR_FILENO);
+    _exit(error_of(work).empty() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFSIGNALED(status)) {
+    EXPECT_EQ(WTERMSIG(status), SIGABRT);
+    throw std::runtime_error("terminated");
+  }
+  if (WEXITSTATUS(status) == 2) {
+    throw std::runtime_error("done without");
+  }
+  if (WEXITSTATUS(status) != 0) {
+    throw std::runtime_error("failed");
+  }
+}
+
+/// Like fail_each_call, with allocations: each of the first ones, then ever fewer of the others.
+/// `child`: see in_a_child.
+inline void fail_each_allocation(const std::function<void()>& work, int stride, bool child,
                                  const std::function<void(const FaultOutcome&)>& judge) {
-  for (long n = 1;; n += n < all ? 1 : n / 9 + 1) {
+  const long all = 60 / stride;
+  for (long n = 1;; n += n < all ? 1 : 1 + n * std::min(stride, 4) / 9) {
     FaultOutcome outcome;
     bool failed = false;
-    {
+    const auto fail_one = [&] {
       const FailingNew failing(n);
-      outcome.error = error_of(work);
+      const std::string error = error_of(work);
       failed = failing.happened();
-    }
+      if (child && failed && error.empty()) {
+        _exit(2);  // it did without
+      }
+      if (!error.empty()) {
+        throw std::runtime_error(error);
+      }
+    };
+    outcome.error = error_of([&] { child ? in_a_child(fail_one) : fail_one(); });
     outcome.fault = "allocation " + std::to_string(n);
     SCOPED_TRACE(outcome.fault + ": " + outcome.error);
     judge(outcome);
-    if (!failed) {
+    if (child ? outcome.error.empty() : !failed) {
       EXPECT_EQ(outcome.error, "");
       EXPECT_GT(n, 1);
       return;
