@@ -12,11 +12,16 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "renderer/cancel.h"
+
 namespace quartet {
 namespace {
 
 void check(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_CANCELLED) {
+    throw Cancelled();
+  }
   if (error != RTC_ERROR_NONE) {
     throw std::runtime_error(
         fmt::format("Embree: cannot build the scene (error {}{})", int(error),
@@ -91,6 +96,22 @@ void set_rays(const Ray8& rays, RTCRay8& r) {
   store(r.flags, Int8{});
 }
 
+/// The rays that Embree takes: where it was built with assertions it ends the program for one that
+/// is not finite or begins too far out. No scene or camera within its limits (scene/limits.h) makes
+/// such a ray; one that comes all the same meets nothing.
+Mask8 traceable(const Ray8& rays) {
+  constexpr float too_far = 1e18f;
+  // One sum, which is not below the limit as soon as one part is not.
+  const Float8 sum = abs(rays.origin.x) + abs(rays.origin.y) + abs(rays.origin.z) +
+                     abs(rays.direction.x) + abs(rays.direction.y) + abs(rays.direction.z);
+  return (sum < too_far) & (rays.t_max >= 0.0f);
+}
+
+/// Called by Embree now and then while it builds; false ends that.
+bool goes_on(void* stop, double /*done*/) {
+  return !static_cast<const std::stop_token*>(stop)->stop_requested();
+}
+
 /// One ray alone in a packet.
 constexpr Mask8 first_lane{-1};
 Ray8 packet_of(const Ray& ray) {
@@ -103,14 +124,17 @@ void Accel::Release::operator()(RTCSceneTy* scene) const {
   rtcReleaseScene(scene);
 }
 
-Accel::Accel(const Scene& scene) {
+Accel::Accel(const Scene& scene, const std::stop_token& stop) {
   // The scene holds a reference of its own to the device.
   const std::unique_ptr<std::remove_pointer_t<RTCDevice>, decltype(&rtcReleaseDevice)> device(
       rtcNewDevice(nullptr), rtcReleaseDevice);
   check(device.get());
   scene_.reset(rtcNewScene(device.get()));
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+  std::stop_token asked = stop;
+  rtcSetSceneProgressMonitorFunction(scene_.get(), goes_on, &asked);
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    check_cancelled(stop);
     RTCGeometry geometry =
         std::visit([&](const auto& shape) { return make_geometry(device.get(), shape); },
                    scene.shapes[i].geometry);
@@ -120,7 +144,9 @@ Accel::Accel(const Scene& scene) {
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(scene_.get());
+  check_cancelled(stop);
   check(device.get());
+  rtcSetSceneProgressMonitorFunction(scene_.get(), nullptr, nullptr);
   if (!scene.shapes.empty()) {
     RTCBounds bounds;
     rtcGetSceneBounds(scene_.get(), &bounds);
@@ -130,6 +156,7 @@ Accel::Accel(const Scene& scene) {
 }
 
 Hit8 Accel::closest_hit(const Ray8& rays, Mask8 active) const {
+  active &= traceable(rays);
   RTCRayHit8 query;
   set_rays(rays, query.ray);
   store(query.hit.geomID, ~Int8{});  // RTC_INVALID_GEOMETRY_ID
@@ -151,6 +178,7 @@ Hit8 Accel::closest_hit(const Ray8& rays, Mask8 active) const {
 }
 
 Mask8 Accel::occluded(const Ray8& rays, Mask8 active) const {
+  active &= traceable(rays);
   // Eight together Embree traverses as one packet, with boxes that round otherwise: a ray along the
   // very edge of a wall may then miss it. Fewer it traverses one by one.
   constexpr Mask8 half{-1, -1, -1, -1};

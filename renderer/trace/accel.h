@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <stop_token>
 
 #include "renderer/scene/scene.h"
 #include "renderer/trace/wide.h"
@@ -41,11 +42,12 @@ struct Hit8 {
 /// Rays go to Embree in packets of eight, single ones too. What a ray of a packet meets does not
 /// depend, to the bit, on the other rays or on which there are (tests/trace/accel_test.cpp); but
 /// it is not always what Embree's own single rays meet, which differ from packets in the last bits
-/// of spheres.
+/// of spheres. A ray that is not finite, or that begins 10^18 away or farther, meets nothing.
 class Accel {
  public:
-  /// Copies what it needs. Throws std::runtime_error if Embree refuses (out of memory).
-  explicit Accel(const Scene& scene);
+  /// Copies what it needs. Throws std::runtime_error if Embree refuses (out of memory), Cancelled
+  /// soon after `stop` was asked for.
+  explicit Accel(const Scene& scene, const std::stop_token& stop = {});
 
   /// The first surface along the ray within (0, t_max); false if there is none.
   bool closest_hit(const Ray& ray, Hit& hit) const;

@@ -1,5 +1,6 @@
 #include "renderer/trace/surface.h"
 
+#include "renderer/cancel.h"
 #include "renderer/trace/frame.h"
 
 namespace quartet {
@@ -42,15 +43,25 @@ constexpr float errors = 0x1p-19f;
 
 }  // namespace
 
-std::vector<Facet> facets_of(const Mesh& mesh) {
+glm::vec3 unit_cross(glm::vec3 a, glm::vec3 b) {
+  const glm::vec3 normal = glm::cross(a, b);
+  constexpr float least = 1e-30f;
+  return glm::dot(normal, normal) > least
+             ? glm::normalize(normal)
+             : glm::vec3(glm::normalize(glm::cross(glm::dvec3(a), glm::dvec3(b))));
+}
+
+std::vector<Facet> facets_of(const Mesh& mesh, const std::stop_token& stop) {
+  CancelTick tick(stop);
   std::vector<Facet> facets;
   facets.reserve(mesh.triangles.size());
   for (const glm::uvec3 triangle : mesh.triangles) {
+    tick();
     const glm::vec3 a = mesh.positions[triangle.x];
     const glm::vec3 b = mesh.positions[triangle.y];
     const glm::vec3 c = mesh.positions[triangle.z];
     Facet facet{a, b - a, c - a, {}, 0.0f, {}};
-    facet.normal = glm::normalize(glm::cross(facet.edge1, facet.edge2));
+    facet.normal = unit_cross(facet.edge1, facet.edge2);
     facet.offset = errors * glm::dot(glm::abs(facet.normal),
                                      glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c)));
     facets.push_back(facet);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <stop_token>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -35,7 +36,12 @@ struct alignas(64) Facet {
   glm::vec3 reflectance{0.0f};  ///< of its material, where that has one everywhere
 };
 
-std::vector<Facet> facets_of(const Mesh& mesh);
+/// Throws Cancelled soon after `stop` was asked for.
+std::vector<Facet> facets_of(const Mesh& mesh, const std::stop_token& stop = {});
+
+/// The unit normal of the plane of two edges, also where they are so short that the square of their
+/// product leaves the range of float.
+glm::vec3 unit_cross(glm::vec3 a, glm::vec3 b);
 
 Surface surface_at(const Facet& facet, const Hit& hit);
 Surface surface_at(const Sphere& sphere, const Ray& ray, const Hit& hit);

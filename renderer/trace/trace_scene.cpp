@@ -11,9 +11,9 @@ bool is_textured(const Shape& shape, const Material& material) {
 
 }  // namespace
 
-TraceScene::TraceScene(Scene scene)
+TraceScene::TraceScene(Scene scene, const std::stop_token& stop)
     : scene_(std::move(scene)),
-      accel_(scene_),
+      accel_(scene_, stop),
       lights_(scene_, accel_.bounds_min(), accel_.bounds_max()) {
   for (const Shape& shape : scene_.shapes) {
     const Material& material = scene_.materials[std::size_t(shape.material)];
@@ -21,7 +21,7 @@ TraceScene::TraceScene(Scene scene)
     ShapeRecord& record = records_.emplace_back();
     record.shape = &shape;
     record.material = &material;
-    record.facets = mesh ? facets_of(*mesh) : std::vector<Facet>();
+    record.facets = mesh ? facets_of(*mesh, stop) : std::vector<Facet>();
     record.smooth = mesh && !mesh->normals.empty();
     record.textured = is_textured(shape, material);
     record.plain =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "renderer/scene/scene.h"
@@ -15,8 +16,9 @@ namespace quartet {
 /// safe to use from many threads.
 class TraceScene {
  public:
-  /// Throws std::runtime_error if the hierarchy cannot be built.
-  explicit TraceScene(Scene scene);
+  /// Throws std::runtime_error if the hierarchy cannot be built, Cancelled within a tenth of a
+  /// second or so after `stop` was asked for.
+  explicit TraceScene(Scene scene, const std::stop_token& stop = {});
   TraceScene(const TraceScene&) = delete;
   TraceScene& operator=(const TraceScene&) = delete;
 

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 
+#include "renderer/cancel.h"
 #include "tests/trace/bits.h"
 #include "tests/trace/test_scenes.h"
 
@@ -194,6 +196,43 @@ TEST(Accel, PacketsInEveryBuiltinSceneAreEightSingleRays) {
     SCOPED_TRACE(name);
     expect_the_same_in_any_company(load_scene(find_scene(name)), 20000);
   }
+}
+
+TEST(Accel, ARayThatIsNoneMeetsNothing) {
+  // Debian's Embree ends the program for such rays.
+  Scene scene;
+  add_shape(scene, parallelogram({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}), diffuse(0.5f));
+  const Accel accel(scene);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const Ray good{{0.1f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+  Hit hit{};
+  EXPECT_TRUE(accel.closest_hit(good, hit));
+  EXPECT_TRUE(accel.occluded(good));
+  for (const float bad : {nan, inf, -inf, 2e18f, -3e38f}) {
+    for (int i = 0; i < 6; ++i) {
+      Ray ray = good;
+      (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
+      EXPECT_FALSE(accel.closest_hit(ray, hit)) << i << " is " << bad;
+      EXPECT_FALSE(accel.occluded(ray)) << i << " is " << bad;
+    }
+  }
+  Ray ray = good;
+  ray.t_max = nan;
+  EXPECT_FALSE(accel.occluded(ray));
+  // Beside a good one in the same packet.
+  Ray8 rays{splat(good.origin), splat(good.direction), splat(good.t_max)};
+  rays.origin.x[3] = nan;
+  EXPECT_EQ(lane_bits(accel.closest_hit(rays, ~Mask8{}).met), 0xf7u);
+  EXPECT_EQ(lane_bits(accel.occluded(rays, ~Mask8{})), 0xf7u);
+}
+
+TEST(Accel, BuildingCanBeCancelled) {
+  Random random(1);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(Accel(hills(random), stop.get_token()), Cancelled);
+  EXPECT_THROW(TraceScene(hills(random), stop.get_token()), Cancelled);
 }
 
 }  // namespace
