@@ -19,7 +19,9 @@ void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene) {
   const RenderSettings old = state.request.settings;
   state.request.settings = default_settings(scene->scene());
   if (state.request.scene) {
-    state.request.settings.integrator = old.integrator;
+    if (why_not(scene->scene(), old.integrator).empty()) {
+      state.request.settings.integrator = old.integrator;
+    }
     state.request.settings.seed = old.seed;
   }
   state.camera = camera_controls(*scene);

@@ -235,6 +235,7 @@ SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
       draw_synthetic(*row, seed, x, y, first, radiance);
     };
   }
+  check_integrator(scene->scene(), settings.integrator);
   const CameraRays camera(settings.camera, settings.width, settings.height);
   const auto trace = integrator(settings.integrator).trace_jobs;
   return [scene = std::move(scene), settings, camera, trace](std::span<SampleJob> jobs) {

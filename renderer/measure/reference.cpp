@@ -35,6 +35,9 @@ std::string mismatch(const Reference& reference, const Scene& scene,
     return fmt::format("it shows '{}' as of hash {}, the run shows '{}' of hash {}",
                        reference.scene_name, reference.scene_hash, scene.name, hash);
   }
+  if (const std::string reason = why_not(scene, made.integrator); !reason.empty()) {
+    return reason;
+  }
   if (made.camera != settings.camera) {
     return "it was seen by another camera";
   }

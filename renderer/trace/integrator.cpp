@@ -1,6 +1,9 @@
 #include "renderer/trace/integrator.h"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <stdexcept>
 
 #include "renderer/table.h"
 #include "renderer/trace/path_lanes.h"
@@ -12,9 +15,10 @@ constexpr std::array table{
     Integrator{
         IntegratorId::kajiya, "kajiya", "Kajiya",
         "BSDF sampling and Russian roulette only: slow, and the ground truth; no point lights",
-        trace_lanes<false>},
+        false, trace_lanes<false>},
     Integrator{IntegratorId::mis, "mis", "MIS",
-               "light and BSDF sampling, power heuristic, Russian roulette", trace_lanes<true>},
+               "light and BSDF sampling, power heuristic, Russian roulette", true,
+               trace_lanes<true>},
 };
 
 }  // namespace
@@ -24,6 +28,23 @@ RenderSettings default_settings(const Scene& scene) {
           .width = scene.width,
           .height = scene.height,
           .max_depth = scene.max_depth};
+}
+
+std::string why_not(const Scene& scene, IntegratorId key) {
+  const Integrator& row = integrator(key);
+  if (row.finds_points || scene.points.empty()) {
+    return {};
+  }
+  return fmt::format(
+      "integrator {} cannot find point lights, and the scene '{}' has {}: its picture would be too "
+      "dark; mis can",
+      row.id, scene.name, scene.points.size());
+}
+
+void check_integrator(const Scene& scene, IntegratorId key) {
+  if (const std::string reason = why_not(scene, key); !reason.empty()) {
+    throw std::invalid_argument(reason);
+  }
 }
 
 std::span<const Integrator> integrators() {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "renderer/trace/camera_rays.h"
@@ -34,6 +35,7 @@ struct Integrator {
   std::string_view id;     ///< on the command line and in files
   std::string_view label;  ///< for people
   std::string_view description;
+  bool finds_points;  ///< light that no ray meets by chance
   /// Makes what the jobs ask for; their work is in rays.
   void (*trace_jobs)(const TraceScene& scene, const RenderSettings& settings,
                      const CameraRays& camera, std::span<SampleJob> jobs);
@@ -45,6 +47,13 @@ struct Integrator {
     trace_jobs(scene, settings, camera, {&job, 1});
   }
 };
+
+/// Why an integrator cannot render a scene: it would miss light, and the picture, truth or not,
+/// would be too dark without a word. Empty if it can.
+std::string why_not(const Scene& scene, IntegratorId key);
+/// Throws std::invalid_argument that says so. Whoever prepares a run calls it early; where samples
+/// begin (sample_source) it is called in any case.
+void check_integrator(const Scene& scene, IntegratorId key);
 
 std::span<const Integrator> integrators();
 const Integrator& integrator(IntegratorId key);

@@ -310,6 +310,28 @@ TEST(Reference, ResumesOnlyWhatItIs) {
             std::string::npos);
 }
 
+TEST(Reference, OfAnIntegratorThatMissesLightIsRefused) {
+  Scene scene = box()->scene();
+  Reference reference;
+  reference.settings = settings();
+  reference.settings.integrator = IntegratorId::kajiya;
+  RenderSettings run = settings();
+  run.seed = 1;
+  reference.scene_hash = scene_hash(scene);
+  EXPECT_EQ(error_of([&] { check_reference(reference, scene, run); }), "");
+  scene.points.push_back({});
+  reference.scene_hash = scene_hash(scene);
+  EXPECT_NE(error_of([&] {
+              check_reference(reference, scene, run);
+            }).find("kajiya cannot find point lights"),
+            std::string::npos);
+  // Nor is one made, whoever asks.
+  run.integrator = IntegratorId::kajiya;
+  const auto lit = std::make_shared<const TraceScene>(scene);
+  EXPECT_THROW(ReferenceRender(lit, run), std::invalid_argument);
+  EXPECT_THROW(sample_source(lit, run), std::invalid_argument);
+}
+
 TEST(Reference, OfAnotherProgramIsKnownByItsSizeAlone) {
   const TempFolder folder;
   write_foreign(folder / "foreign.exr", glm::vec3(0.25f));
