@@ -9,6 +9,7 @@
 #include "app/run_options.h"
 #include "app/scene_text.h"
 #include "app/vector_json.h"
+#include "renderer/printable.h"
 #include "renderer/scene/mesh.h"
 #include "renderer/scene/synthetic.h"
 #include "renderer/trace/color_at.h"
@@ -106,7 +107,7 @@ void print_text(const Scene& scene) {
         row->label, row->mean, row->variance);
     return;
   }
-  fmt::print("file        {}\n", scene.path.string());
+  fmt::print("file        {}\n", printable(scene.path.string()));
   fmt::print("picture     {}x{} pixels\n", scene.width, scene.height);
   fmt::print("depth       {}\n", scene.max_depth == std::numeric_limits<int>::max()
                                      ? std::string("not limited")

@@ -15,6 +15,7 @@
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference_cache.h"
+#include "renderer/printable.h"
 #include "renderer/stopwatch.h"
 
 namespace quartet {

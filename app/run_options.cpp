@@ -13,6 +13,7 @@
 #include "app/messages.h"
 #include "app/number_option.h"
 #include "app/shell_words.h"
+#include "renderer/scene/limits.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"
 
@@ -51,11 +52,8 @@ void set_camera(const std::vector<float>& numbers, Camera& camera) {
   camera.right = vector(3);
   camera.up = vector(6);
   camera.forward = vector(9);
-  for (const glm::vec3 axis : {camera.right, camera.up, camera.forward}) {
-    // Also false for numbers that are not finite.
-    if (!(std::abs(glm::length(axis) - 1.0f) < 1e-3f)) {
-      throw UsageError("--camera: right, up and forward must have length 1");
-    }
+  if (const std::string fault = camera_fault(camera); !fault.empty()) {
+    throw UsageError("--camera: " + fault);
   }
 }
 
@@ -193,6 +191,7 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
                                       ? RenderSettings().integrator
                                       : find_integrator(options.integrator).key;
   Scene scene = open_scene(options.scene, parse_defines(options.defines));
+  check_integrator(scene, integrator);
   for (const std::string& warning : scene.warnings) {
     warn("{}", warning);
   }
@@ -208,6 +207,9 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
     const PictureSize size = parse_size(options.size_name, options.size);
     run.settings.width = size.width;
     run.settings.height = size.height;
+    if (const std::string fault = picture_size_fault(size.width, size.height); !fault.empty()) {
+      throw UsageError(fmt::format("{}: {}", options.size_name, fault));
+    }
   }
   if (!options.camera.empty()) {
     set_camera(options.camera, run.settings.camera);

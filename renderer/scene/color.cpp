@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "renderer/excerpt.h"
+#include "renderer/scene/limits.h"
 #include "renderer/scene/number.h"
 #include "renderer/scene/texture.h"
 
@@ -39,15 +42,16 @@ glm::vec3 read_numbers(const XmlDocument& xml, pugi::xml_node node) {
   glm::vec3 color(0.0f);
   const bool counted = parts.size() == 1 || parts.size() == 3;
   for (std::size_t i = 0; counted && i < 3; ++i) {
-    const std::optional<double> value = parse_number(parts[parts.size() == 1 ? 0 : i]);
-    if (!value || std::abs(*value) > std::numeric_limits<float>::max()) {
-      xml.fail(node, fmt::format("<{}> is '{}', expected finite numbers", node.name(), text));
+    const std::optional<float> value = parse_float(parts[parts.size() == 1 ? 0 : i]);
+    if (!value) {
+      xml.fail(node,
+               fmt::format("<{}> is '{}', expected finite numbers", node.name(), excerpt(text)));
     }
-    color[int(i)] = float(*value);
+    color[int(i)] = *value;
   }
   if (!counted) {
-    xml.fail(node,
-             fmt::format("<{}> is '{}', expected 1 or 3 numbers or #rrggbb", node.name(), text));
+    xml.fail(node, fmt::format("<{}> is '{}', expected 1 or 3 numbers or #rrggbb", node.name(),
+                               excerpt(text)));
   }
   return color;
 }
@@ -65,7 +69,8 @@ glm::vec3 read_spectrum(SceneBuilder& builder, pugi::xml_node node) {
     const std::optional<double> value =
         colon == std::string_view::npos ? std::nullopt : parse_number(part.substr(colon + 1));
     if (!value) {
-      builder.xml.fail(node, fmt::format("<spectrum> holds '{}', expected wavelength:value", part));
+      builder.xml.fail(
+          node, fmt::format("<spectrum> holds '{}', expected wavelength:value", excerpt(part)));
     }
     sum += *value;
   }
@@ -76,17 +81,45 @@ glm::vec3 read_spectrum(SceneBuilder& builder, pugi::xml_node node) {
   return {mean, mean, mean};
 }
 
+struct RangeRow {
+  ColorRange range;
+  double least;  // of the strongest channel, unless that is 0
+  double most;
+};
+
+constexpr std::array ranges = {
+    RangeRow{ColorRange::any, 0.0, std::numeric_limits<float>::max()},
+    RangeRow{ColorRange::reflectance, 0.0, largest_reflectance},
+    RangeRow{ColorRange::radiance, least_radiance, largest_radiance},
+    RangeRow{ColorRange::intensity, least_intensity, largest_intensity},
+    RangeRow{ColorRange::metal_index, 0.0, largest_metal_index},
+    RangeRow{ColorRange::alpha, 0.0, largest_alpha},
+};
+
 void check_range(SceneBuilder& builder, pugi::xml_node node, std::string_view slot,
                  const glm::vec3& value, ColorRange range) {
-  if (glm::any(glm::lessThan(value, glm::vec3(0.0f)))) {
-    builder.xml.fail(node,
-                     fmt::format("{} is negative ({}, {}, {})", slot, value.x, value.y, value.z));
+  const std::string numbers = fmt::format("({}, {}, {})", value.x, value.y, value.z);
+  // Also true for what is not a number.
+  if (!glm::all(glm::greaterThanEqual(value, glm::vec3(0.0f)))) {
+    builder.xml.fail(node, fmt::format("{} is negative {}", slot, numbers));
   }
-  if (range == ColorRange::reflectance && glm::any(glm::greaterThan(value, glm::vec3(1.0f)))) {
-    builder.warn(node,
-                 fmt::format("{} is above 1 ({}, {}, {}): it creates energy, and pictures may "
-                             "not converge",
-                             slot, value.x, value.y, value.z));
+  const auto& row = *std::find_if(ranges.begin(), ranges.end(),
+                                  [&](const RangeRow& each) { return each.range == range; });
+  const float strongest = std::max({value.x, value.y, value.z});
+  if (strongest > float(row.most)) {
+    builder.xml.fail(node,
+                     fmt::format("{} is {}, at most {} is possible", slot, numbers, row.most));
+  }
+  if (strongest > 0.0f && strongest < float(row.least)) {
+    builder.xml.fail(node,
+                     fmt::format("{} is {}, expected 0 or, in the strongest channel, at least "
+                                 "{}",
+                                 slot, numbers, row.least));
+  }
+  if (range == ColorRange::reflectance && strongest > 1.0f) {
+    builder.warn(node, fmt::format("{} is above 1 {}: it creates energy, and pictures may not "
+                                   "converge",
+                                   slot, numbers));
   }
 }
 
@@ -103,8 +136,8 @@ Color read_color(SceneBuilder& builder, Element& element, std::string_view name,
   if (tag == "texture" || tag == "ref") {
     const pugi::xml_node object = tag == "ref" ? builder.xml.target(node) : node;
     if (std::string_view(object.name()) != "texture") {
-      builder.xml.fail(
-          node, fmt::format("{} refers to a <{}>, expected a <texture>", slot, object.name()));
+      builder.xml.fail(node, fmt::format("{} refers to a <{}>, expected a <texture>", slot,
+                                         excerpt(object.name())));
     }
     color = read_texture(builder, object);
   } else {

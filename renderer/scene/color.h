@@ -7,8 +7,9 @@
 
 namespace quartet {
 
-/// What a colour slot may hold. Negative values are errors everywhere.
-enum class ColorRange { any, reflectance };  ///< reflectance: above 1 is warned about
+/// What a colour slot holds, and thus what it may be: limits.h has the numbers. Negative values are
+/// errors everywhere; a reflectance above 1 is warned about.
+enum class ColorRange { any, reflectance, radiance, intensity, metal_index, alpha };
 
 /// The property `name` as a colour: <rgb> (three numbers, one for grey, or sRGB-coded "#rrggbb"),
 /// <spectrum>, <float>, or a texture, also through <ref>. `fallback` if absent. Throws SceneError.

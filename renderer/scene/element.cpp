@@ -7,18 +7,24 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/cancel.h"
+#include "renderer/excerpt.h"
 #include "renderer/scene/number.h"
 #include "renderer/scene/transform.h"
 
 namespace quartet {
 
-std::string Element::title() const {
-  return type().empty() ? fmt::format("<{}>", node_.name())
-                        : fmt::format("{} '{}'", node_.name(), type());
+Element::Element(SceneBuilder& builder, pugi::xml_node node) : builder_(&builder), node_(node) {
+  check_cancelled(builder.stop);
 }
 
-bool Element::used(pugi::xml_node child) const {
-  return std::find(used_.begin(), used_.end(), child) != used_.end();
+std::string Element::id() const {
+  return excerpt(node_.attribute("id").value(), 1000);
+}
+
+std::string Element::title() const {
+  const std::string tag = excerpt(node_.name());
+  return type().empty() ? fmt::format("<{}>", tag) : fmt::format("{} '{}'", tag, excerpt(type()));
 }
 
 bool Element::has(std::string_view name) const {
@@ -36,11 +42,11 @@ pugi::xml_node Element::property(std::string_view name,
                      fmt::format("{} of {} is given twice, the last one counts", name, title()));
     }
     found = child;
-    used_.push_back(child);
+    used_.insert(child);
   }
   if (found && std::find(tags.begin(), tags.end(), found.name()) == tags.end()) {
     builder_->xml.fail(found, fmt::format("{} of {} is a <{}>, expected <{}>", name, title(),
-                                          found.name(), fmt::join(tags, "> or <")));
+                                          excerpt(found.name()), fmt::join(tags, "> or <")));
   }
   return found;
 }
@@ -51,8 +57,8 @@ double Element::number(std::string_view name, double fallback) {
   const std::string_view value = child.attribute("value").value();
   const std::optional<double> number = parse_number(value);
   if (!number || std::abs(*number) > std::numeric_limits<float>::max()) {
-    builder_->xml.fail(
-        child, fmt::format("{} of {} is '{}', expected a finite number", name, title(), value));
+    builder_->xml.fail(child, fmt::format("{} of {} is '{}', expected a finite number", name,
+                                          title(), excerpt(value)));
   }
   return *number;
 }
@@ -74,7 +80,9 @@ int Element::integer(std::string_view name, int fallback) {
   if (!number || *number != std::floor(*number) ||
       std::abs(*number) > std::numeric_limits<int>::max()) {
     builder_->xml.fail(
-        child, fmt::format("{} of {} is '{}', expected a whole number", name, title(), value));
+        child, fmt::format("{} of {} is '{}', expected a whole number from {} to {}", name, title(),
+                           excerpt(value), -std::numeric_limits<int>::max(),
+                           std::numeric_limits<int>::max()));
   }
   return int(*number);
 }
@@ -84,8 +92,8 @@ bool Element::boolean(std::string_view name, bool fallback) {
   if (!child) return fallback;
   const std::string_view value = child.attribute("value").value();
   if (value != "true" && value != "false") {
-    builder_->xml.fail(
-        child, fmt::format("{} of {} is '{}', expected true or false", name, title(), value));
+    builder_->xml.fail(child, fmt::format("{} of {} is '{}', expected true or false", name, title(),
+                                          excerpt(value)));
   }
   return value == "true";
 }
@@ -112,7 +120,7 @@ std::vector<pugi::xml_node> Element::objects(std::string_view tag) {
     const bool reference = std::string_view(child.name()) == "ref";
     const pugi::xml_node object = reference ? builder_->xml.target(child) : child;
     if (tag != object.name()) continue;
-    used_.push_back(child);
+    used_.insert(child);
     found.push_back(object);
   }
   return found;
@@ -121,18 +129,19 @@ std::vector<pugi::xml_node> Element::objects(std::string_view tag) {
 void Element::ignore(std::initializer_list<std::string_view> names) {
   for (pugi::xml_node child : node_.children()) {
     const std::string_view name = child.attribute("name").value();
-    if (std::find(names.begin(), names.end(), name) != names.end()) used_.push_back(child);
+    if (std::find(names.begin(), names.end(), name) != names.end()) used_.insert(child);
   }
 }
 
 void Element::warn_unused() {
   for (pugi::xml_node child : node_.children()) {
-    if (child.type() != pugi::node_element || used(child)) continue;
+    if (child.type() != pugi::node_element || used_.contains(child)) continue;
     const std::string_view name = child.attribute("name").value();
     builder_->warn(
-        child, name.empty()
-                   ? fmt::format("<{}> in {} is not known and left out", child.name(), title())
-                   : fmt::format("property '{}' of {} is not known and left out", name, title()));
+        child,
+        name.empty()
+            ? fmt::format("<{}> in {} is not known and left out", excerpt(child.name()), title())
+            : fmt::format("property '{}' of {} is not known and left out", excerpt(name), title()));
   }
 }
 

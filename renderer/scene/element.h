@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <pugixml.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,14 +14,15 @@ namespace quartet {
 
 /// One object of the scene file (a shape, a bsdf, ...): reads its properties by name and remembers
 /// which of its children were asked for, so that the others can be warned about. All functions
-/// throw SceneError on a value of the wrong kind.
+/// throw SceneError on a value of the wrong kind. Reading one takes time linear in its children.
 class Element {
  public:
-  Element(SceneBuilder& builder, pugi::xml_node node) : builder_(&builder), node_(node) {}
+  /// Throws Cancelled once the loading was asked to stop.
+  Element(SceneBuilder& builder, pugi::xml_node node);
 
   pugi::xml_node node() const { return node_; }
-  std::string type() const { return node_.attribute("type").value(); }
-  std::string id() const { return node_.attribute("id").value(); }
+  std::string_view type() const { return node_.attribute("type").value(); }
+  std::string id() const;     ///< printable
   std::string title() const;  ///< "shape 'sphere'", for messages
 
   bool has(std::string_view name) const;
@@ -48,11 +50,9 @@ class Element {
   void warn(std::string_view message) { builder_->warn(node_, message); }
 
  private:
-  bool used(pugi::xml_node child) const;
-
   SceneBuilder* builder_;
   pugi::xml_node node_;
-  std::vector<pugi::xml_node> used_;
+  std::set<pugi::xml_node> used_;
 };
 
 }  // namespace quartet

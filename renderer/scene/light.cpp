@@ -8,19 +8,20 @@
 
 #include "renderer/scene/color.h"
 #include "renderer/scene/element.h"
+#include "renderer/scene/limits.h"
 
 namespace quartet {
 namespace {
 
 void area(SceneBuilder& builder, Element& element, Shape& shape) {
-  shape.radiance = read_color(builder, element, "radiance", glm::vec3(1.0f), ColorRange::any);
+  shape.radiance = read_color(builder, element, "radiance", glm::vec3(1.0f), ColorRange::radiance);
   shape.emits = largest_value(builder.scene, shape.radiance) > 0.0f;
   if (!shape.emits) element.warn("a light with radiance 0 is left out");
 }
 
 void constant(SceneBuilder& builder, Element& element) {
   const glm::vec3 radiance =
-      read_plain_color(builder, element, "radiance", glm::vec3(1.0f), ColorRange::any);
+      read_plain_color(builder, element, "radiance", glm::vec3(1.0f), ColorRange::radiance);
   if (builder.scene.environment != glm::vec3(0.0f)) {
     element.fail("a second light from all around the scene, expected at most one");
   }
@@ -32,7 +33,7 @@ void constant(SceneBuilder& builder, Element& element) {
 void point(SceneBuilder& builder, Element& element) {
   PointLight light;
   light.intensity =
-      read_plain_color(builder, element, "intensity", glm::vec3(1.0f), ColorRange::any);
+      read_plain_color(builder, element, "intensity", glm::vec3(1.0f), ColorRange::intensity);
   if (element.has("position") && element.has("to_world")) {
     element.fail("a light with position and to_world, expected one of them");
   }
@@ -42,6 +43,10 @@ void point(SceneBuilder& builder, Element& element) {
     element.warn("a light with intensity 0 is left out");
     return;
   }
+  if (const std::string fault = position_fault(light.position); !fault.empty()) {
+    element.fail(fmt::format("{}: {}", element.title(), fault));
+  }
+  builder.count_lights(element.node(), 1);
   builder.scene.points.push_back(light);
 }
 

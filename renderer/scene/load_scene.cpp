@@ -7,6 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "renderer/cancel.h"
+#include "renderer/excerpt.h"
+#include "renderer/printable.h"
 #include "renderer/scene/element.h"
 #include "renderer/scene/light.h"
 #include "renderer/scene/scene_builder.h"
@@ -17,6 +20,8 @@ namespace quartet {
 namespace {
 
 void read_integrator(SceneBuilder& builder, pugi::xml_node node) {
+  const OpenElement open(builder, node);
+  if (!builder.integrators.insert(node).second) return;
   Element element(builder, node);
   // An integrator may wrap the one that computes radiance (aov, moment).
   for (pugi::xml_node inner : element.objects("integrator")) read_integrator(builder, inner);
@@ -57,21 +62,23 @@ constexpr std::array part_types = {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& path, const SceneParameters& parameters) {
-  SceneBuilder builder(path, parameters);
+Scene load_scene(const std::filesystem::path& path, const SceneParameters& parameters,
+                 std::stop_token stop) {
+  SceneBuilder builder(path, parameters, stop);
   Scene& scene = builder.scene;
   scene.path = path;
-  scene.name = path.stem().string();
+  scene.name = printable(path.stem().string());
   const pugi::xml_node root = builder.xml.root();
   bool has_camera = false;
   for (pugi::xml_node part : root.children()) {
+    check_cancelled(stop);
     if (part.type() != pugi::node_element) continue;
     const std::string_view tag = part.name();
     const auto* const type =
         std::find_if(part_types.begin(), part_types.end(),
                      [&](const PartType& candidate) { return candidate.tag == tag; });
     if (type == part_types.end()) {
-      builder.warn(part, fmt::format("<{}> is not known and left out", tag));
+      builder.warn(part, fmt::format("<{}> is not known and left out", excerpt(tag)));
       continue;
     }
     if (tag == "sensor" && std::exchange(has_camera, true)) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,10 @@ struct ParameterError : SceneError {
 using SceneParameters = std::map<std::string, std::string>;
 
 /// Reads a Mitsuba 3 XML file. What is unknown but harmless is left out and named in
-/// Scene::warnings, once each. Throws SceneError, ParameterError among them.
-Scene load_scene(const std::filesystem::path& path, const SceneParameters& parameters = {});
+/// Scene::warnings, once each. Throws SceneError, ParameterError among them, and Cancelled within a
+/// tenth of a second or so after `stop` was asked for.
+Scene load_scene(const std::filesystem::path& path, const SceneParameters& parameters = {},
+                 std::stop_token stop = {});
 
 /// The scenes that come with Quartet: names without extension, sorted, those that show where
 /// methods fail with their folder ("failures/rare-light").
@@ -43,8 +46,9 @@ std::filesystem::path find_scene(std::string_view name);
 std::string lasting_scene_name(std::string_view name);
 
 /// The scene meant by `name`: a file or a built-in scene as above, or "synthetic:ID", a
-/// distribution of synthetic.h, which takes no parameters. Throws SceneError, or
-/// std::invalid_argument that lists the distributions.
-Scene open_scene(std::string_view name, const SceneParameters& parameters = {});
+/// distribution of synthetic.h, which takes no parameters. Throws SceneError, Cancelled as above,
+/// or std::invalid_argument that lists the distributions.
+Scene open_scene(std::string_view name, const SceneParameters& parameters = {},
+                 std::stop_token stop = {});
 
 }  // namespace quartet

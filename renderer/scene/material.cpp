@@ -9,8 +9,10 @@
 #include <string>
 #include <string_view>
 
+#include "renderer/excerpt.h"
 #include "renderer/scene/color.h"
 #include "renderer/scene/element.h"
+#include "renderer/scene/limits.h"
 #include "renderer/scene/refractive_index.h"
 
 namespace quartet {
@@ -38,14 +40,14 @@ void read_metal(SceneBuilder& builder, Element& element, Material& material) {
     builder.xml.fail(element.property("material", {"string"}),
                      fmt::format("no metal is named '{}' (known: {}); expected one of them, or eta "
                                  "and k",
-                                 name, names(table)));
+                                 excerpt(name), names(table)));
   }
   if (name != "none" && (element.has("eta") || element.has("k"))) {
     element.fail(
         fmt::format("{} has both material and eta or k, expected one of them", element.title()));
   }
-  material.eta = read_plain_color(builder, element, "eta", row->eta, ColorRange::any);
-  material.k = read_plain_color(builder, element, "k", row->k, ColorRange::any);
+  material.eta = read_plain_color(builder, element, "eta", row->eta, ColorRange::metal_index);
+  material.k = read_plain_color(builder, element, "k", row->k, ColorRange::metal_index);
   material.reflectance = read_color(builder, element, "specular_reflectance", glm::vec3(1.0f),
                                     ColorRange::reflectance);
 }
@@ -59,7 +61,7 @@ Material conductor(SceneBuilder& builder, Element& element) {
 
 double read_alpha(SceneBuilder& builder, Element& element, std::string_view name, double fallback) {
   const glm::vec3 value =
-      read_plain_color(builder, element, name, glm::vec3(float(fallback)), ColorRange::any);
+      read_plain_color(builder, element, name, glm::vec3(float(fallback)), ColorRange::alpha);
   return value.x;
 }
 
@@ -69,7 +71,8 @@ Material rough_conductor(SceneBuilder& builder, Element& element) {
   read_metal(builder, element, material);
   const std::string distribution = element.text("distribution", "beckmann");
   if (distribution != "ggx") {
-    element.warn(fmt::format("distribution '{}' becomes ggx with the same alpha", distribution));
+    element.warn(
+        fmt::format("distribution '{}' becomes ggx with the same alpha", excerpt(distribution)));
   }
   double alpha = read_alpha(builder, element, "alpha", 0.1);
   if (element.has("alpha_u") || element.has("alpha_v")) {
@@ -85,11 +88,20 @@ Material rough_conductor(SceneBuilder& builder, Element& element) {
   return material;
 }
 
+void check_ior(const Element& element, std::string_view name, double ior) {
+  if (!(ior >= least_ior && ior <= largest_ior)) {
+    element.fail(fmt::format("{} of {} is {}, must be from {} to {}", name, element.title(), ior,
+                             least_ior, largest_ior));
+  }
+}
+
 double read_ior(SceneBuilder& builder, Element& element, std::string_view name,
                 std::string_view fallback) {
   const pugi::xml_node node = element.property(name, {"float", "string"});
   if (node && std::string_view(node.name()) == "float") {
-    return element.positive(name, 1.0);
+    const double ior = element.positive(name, 1.0);
+    check_ior(element, name, ior);
+    return ior;
   }
   std::string wanted = node ? node.attribute("value").value() : std::string(fallback);
   std::transform(wanted.begin(), wanted.end(), wanted.begin(),
@@ -99,8 +111,8 @@ double read_ior(SceneBuilder& builder, Element& element, std::string_view name,
     return candidate.name == wanted;
   });
   if (row == table.end()) {
-    builder.xml.fail(node, fmt::format("{} is '{}', expected a number or one of {}", name, wanted,
-                                       names(table)));
+    builder.xml.fail(node, fmt::format("{} is '{}', expected a number or one of {}", name,
+                                       excerpt(wanted), names(table)));
   }
   return row->ior;
 }
@@ -108,8 +120,10 @@ double read_ior(SceneBuilder& builder, Element& element, std::string_view name,
 Material dielectric(SceneBuilder& builder, Element& element) {
   Material material;
   material.kind = MaterialKind::dielectric;
-  material.ior = float(read_ior(builder, element, "int_ior", "bk7") /
-                       read_ior(builder, element, "ext_ior", "air"));
+  const double ior =
+      read_ior(builder, element, "int_ior", "bk7") / read_ior(builder, element, "ext_ior", "air");
+  check_ior(element, "int_ior over ext_ior", ior);
+  material.ior = float(ior);
   material.reflectance = read_color(builder, element, "specular_reflectance", glm::vec3(1.0f),
                                     ColorRange::reflectance);
   material.transmittance = read_color(builder, element, "specular_transmittance", glm::vec3(1.0f),

@@ -6,6 +6,9 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
+#include "renderer/cancel.h"
+#include "renderer/scene/limits.h"
+
 namespace quartet {
 namespace {
 
@@ -69,19 +72,24 @@ Mesh make_cube(const glm::dmat4& to_world, bool face_normals, bool flip_normals)
   return mesh;
 }
 
-void transform(Mesh& mesh, const glm::dmat4& to_world) {
+void transform(Mesh& mesh, const glm::dmat4& to_world, const std::stop_token& stop) {
+  CancelTick tick(stop);
   for (glm::vec3& position : mesh.positions) {
+    tick();
     position = glm::vec3(to_world * glm::dvec4(position, 1.0));
   }
   const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(glm::dmat3(to_world)));
   for (glm::vec3& normal : mesh.normals) {
+    tick();
     normal = glm::vec3(glm::normalize(normal_matrix * glm::dvec3(normal)));
   }
 }
 
-void orient_by_normals(Mesh& mesh) {
+void orient_by_normals(Mesh& mesh, const std::stop_token& stop) {
   if (mesh.normals.empty()) return;
+  CancelTick tick(stop);
   for (glm::uvec3& triangle : mesh.triangles) {
+    tick();
     const glm::vec3 front =
         mesh.normals[triangle.x] + mesh.normals[triangle.y] + mesh.normals[triangle.z];
     if (glm::dot(area_normal(corners(mesh, triangle)), glm::dvec3(front)) < 0.0) {
@@ -95,9 +103,11 @@ void flip(Mesh& mesh) {
   for (glm::vec3& normal : mesh.normals) normal = -normal;
 }
 
-void compute_normals(Mesh& mesh) {
+void compute_normals(Mesh& mesh, const std::stop_token& stop) {
+  CancelTick tick(stop);
   std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
   for (const glm::uvec3& triangle : mesh.triangles) {
+    tick();
     const Corners p = corners(mesh, triangle);
     const glm::dvec3 normal = glm::normalize(area_normal(p));
     for (int i = 0; i < 3; ++i) {
@@ -108,15 +118,18 @@ void compute_normals(Mesh& mesh) {
   }
   mesh.normals.clear();
   for (const glm::dvec3& sum : sums) {
+    tick();
     // Opposite triangles cancel, and a vertex may belong to none: any direction is as good there.
     const double length = glm::length(sum);
     mesh.normals.push_back(length > 0.0 ? glm::vec3(sum / length) : glm::vec3(1.0f, 0.0f, 0.0f));
   }
 }
 
-void make_barycentric_uvs(Mesh& mesh) {
+void make_barycentric_uvs(Mesh& mesh, const std::stop_token& stop) {
+  CancelTick tick(stop);
   Mesh split;
   for (const glm::uvec3& triangle : mesh.triangles) {
+    tick();
     const unsigned first = unsigned(split.positions.size());
     for (int i = 0; i < 3; ++i) {
       split.positions.push_back(mesh.positions[triangle[i]]);
@@ -128,13 +141,18 @@ void make_barycentric_uvs(Mesh& mesh) {
   mesh = std::move(split);
 }
 
-std::size_t drop_degenerate_triangles(Mesh& mesh) {
+std::size_t drop_degenerate_triangles(Mesh& mesh, const std::stop_token& stop) {
+  CancelTick tick(stop);
   return std::erase_if(mesh.triangles, [&](const glm::uvec3& triangle) {
+    tick();
     const Corners p = corners(mesh, triangle);
     const double longest =
         std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
-    // A height below a billionth of the base is rounding of the corners, not a surface.
-    return glm::length(area_normal(p)) <= 1e-9 * longest * longest;
+    // A height below a billionth of the base is rounding of the corners, not a surface. What is far
+    // below the smallest extent of a shape is no surface either, and products of its edges leave
+    // the range of float.
+    return longest < 1e-4 * smallest_extent ||
+           glm::length(area_normal(p)) <= 1e-9 * longest * longest;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace quartet {
 
@@ -20,12 +21,21 @@ std::vector<std::string_view> split(std::string_view text) {
 
 std::optional<double> parse_number(std::string_view text) {
   // std::from_chars, because strtod and streams read "1.5" as 1 in some locales.
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;
+  }
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc{} || stop != end || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<float> parse_float(std::string_view text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || std::abs(*value) > std::numeric_limits<float>::max()) return std::nullopt;
+  return float(*value);
 }
 
 }  // namespace quartet

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
+#include "renderer/printable.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"
 
@@ -25,7 +27,7 @@ std::string builtin_name(std::string_view name) {
   const std::vector<std::string> names = builtin_scenes();
   if (std::find(names.begin(), names.end(), bare) == names.end()) {
     throw SceneError(fmt::format("{}: no such scene; expected a Mitsuba 3 XML file or one of {}",
-                                 name, fmt::join(names, ", ")));
+                                 printable(name), fmt::join(names, ", ")));
   }
   return std::string(bare);
 }
@@ -56,15 +58,15 @@ std::string lasting_scene_name(std::string_view name) {
   return is_file(name) ? std::filesystem::absolute(name).string() : builtin_name(name);
 }
 
-Scene open_scene(std::string_view name, const SceneParameters& parameters) {
+Scene open_scene(std::string_view name, const SceneParameters& parameters, std::stop_token stop) {
   if (name.starts_with(synthetic_prefix)) {
     if (!parameters.empty()) {
-      throw ParameterError(
-          fmt::format("{}: takes no parameters, '{}' is one", name, parameters.begin()->first));
+      throw ParameterError(fmt::format("{}: takes no parameters, '{}' is one", printable(name),
+                                       printable(parameters.begin()->first)));
     }
     return synthetic_scene(find_synthetic(name.substr(synthetic_prefix.size())));
   }
-  Scene scene = load_scene(find_scene(name), parameters);
+  Scene scene = load_scene(find_scene(name), parameters, std::move(stop));
   if (!is_file(name)) scene.name = builtin_name(name);
   return scene;
 }

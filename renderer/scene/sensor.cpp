@@ -10,7 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "renderer/excerpt.h"
 #include "renderer/scene/element.h"
+#include "renderer/scene/limits.h"
 #include "renderer/scene/number.h"
 
 namespace quartet {
@@ -54,7 +56,7 @@ void read_focal_length(Element& element, Camera& camera) {
       text.ends_with("mm") ? std::string_view(text).substr(0, text.size() - 2) : text;
   const std::optional<double> length = parse_number(number);
   if (!length || *length <= 0.0) {
-    element.fail(fmt::format("focal_length is '{}', expected e.g. \"50mm\"", text));
+    element.fail(fmt::format("focal_length is '{}', expected e.g. \"50mm\"", excerpt(text)));
   }
   camera.fov = float(glm::degrees(2.0 * std::atan(0.5 * std::hypot(36.0, 24.0) / *length)));
   camera.fov_axis = FovAxis::diagonal;
@@ -64,15 +66,13 @@ void read_fov(Element& element, Camera& camera) {
   if (!element.has("fov")) return read_focal_length(element, camera);
   if (element.has("focal_length")) element.fail("both fov and focal_length, expected one of them");
   camera.fov = float(element.number("fov", 0.0));
-  if (!(camera.fov > 0.0f && camera.fov < 180.0f)) {
-    element.fail(fmt::format("fov is {} degrees, must be between 0 and 180", camera.fov));
-  }
   const std::string name = element.text("fov_axis", "x");
   const auto* const axis =
       std::find_if(fov_axes.begin(), fov_axes.end(),
                    [&](const FovAxisName& candidate) { return candidate.name == name; });
   if (axis == fov_axes.end()) {
-    element.fail(fmt::format("fov_axis is '{}', expected x, y, diagonal, smaller or larger", name));
+    element.fail(
+        fmt::format("fov_axis is '{}', expected x, y, diagonal, smaller or larger", excerpt(name)));
   }
   camera.fov_axis = axis->axis;
 }
@@ -91,10 +91,6 @@ void thinlens(Element& element, Camera& camera) {
   perspective(element, camera);
   if (!element.has("aperture_radius")) element.fail("sensor 'thinlens' has no aperture_radius");
   camera.aperture_radius = float(element.number("aperture_radius", 0.0));
-  if (camera.aperture_radius < 0.0f) {
-    element.fail(
-        fmt::format("aperture_radius is {}, must not be negative", camera.aperture_radius));
-  }
   // Mitsuba's default is its far clipping plane.
   camera.focus_distance = float(element.positive("focus_distance", 1e4));
 }
@@ -114,14 +110,17 @@ void read_film(SceneBuilder& builder, pugi::xml_node node) {
   for (const auto& [name, size] :
        {std::pair("width", &builder.scene.width), std::pair("height", &builder.scene.height)}) {
     *size = film.integer(name, *size);
-    if (*size <= 0) film.fail(fmt::format("{} is {}, must be at least 1", name, *size));
+  }
+  if (const std::string fault = picture_size_fault(builder.scene.width, builder.scene.height);
+      !fault.empty()) {
+    film.fail(fault);
   }
   for (pugi::xml_node filter : film.objects("rfilter")) {
     const std::string_view type = filter.attribute("type").value();
     if (type != "box") {
       builder.warn(filter, fmt::format("reconstruction filter '{}' becomes the box filter, because "
                                        "statistics of a pixel need samples of its own",
-                                       type));
+                                       excerpt(type)));
     }
   }
   film.ignore({"file_format", "pixel_format", "component_format", "banner", "high_quality_edges",
@@ -140,6 +139,9 @@ void read_sensor(SceneBuilder& builder, pugi::xml_node node) {
     element.fail(fmt::format("{} is not known, expected perspective or thinlens", element.title()));
   }
   type->read(element, builder.scene.camera);
+  if (const std::string fault = camera_fault(builder.scene.camera); !fault.empty()) {
+    element.fail(fmt::format("{}: {}", element.title(), fault));
+  }
   for (pugi::xml_node film : element.objects("film")) read_film(builder, film);
   element.objects("sampler");  // samples are chosen by the estimators
   element.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close", "focus_distance"});

@@ -10,8 +10,11 @@
 #include <utility>
 #include <variant>
 
+#include "renderer/cancel.h"
+#include "renderer/excerpt.h"
 #include "renderer/scene/element.h"
 #include "renderer/scene/light.h"
+#include "renderer/scene/limits.h"
 #include "renderer/scene/material.h"
 #include "renderer/scene/mesh.h"
 #include "renderer/scene/obj_file.h"
@@ -84,37 +87,38 @@ Geometry obj(SceneBuilder& builder, Element& element) {
   if (filename.empty()) element.fail("shape 'obj' has no filename");
   const glm::dmat4 to_world = element.transform("to_world");
   const bool face_normals = element.boolean("face_normals", false);
-  Mesh mesh;
+  ObjFile file;
   try {
-    mesh = read_obj(builder.xml.path().parent_path() / filename);
+    file = read_obj(builder.xml.path().parent_path() / filename, builder.stop);
+  } catch (const Cancelled&) {
+    throw;
   } catch (const std::runtime_error& error) {
     builder.xml.fail(element.property("filename", {"string"}), error.what());
   }
+  const std::string name = excerpt(filename);
+  for (const std::string& warning : file.warnings) {
+    element.warn(fmt::format("{}: {}", name, warning));
+  }
+  Mesh& mesh = file.mesh;
   if (element.boolean("flip_tex_coords", true)) {
     for (glm::vec2& uv : mesh.uvs) uv.y = 1.0f - uv.y;
   }
-  transform(mesh, to_world);
-  for (const glm::vec3& position : mesh.positions) {
-    if (!glm::all(glm::lessThanEqual(glm::abs(position), glm::vec3(1e30f)))) {
-      element.fail(fmt::format("mesh {} has a vertex at ({}, {}, {}), too far out to render",
-                               filename, position.x, position.y, position.z));
-    }
-  }
-  if (const std::size_t dropped = drop_degenerate_triangles(mesh); dropped > 0) {
-    element.warn(fmt::format("{} triangles without area in {} are left out", dropped, filename));
+  transform(mesh, to_world, builder.stop);
+  if (const std::size_t dropped = drop_degenerate_triangles(mesh, builder.stop); dropped > 0) {
+    element.warn(fmt::format("{} triangles without area in {} are left out", dropped, name));
   }
   if (mesh.triangles.empty()) {
-    element.fail(fmt::format("mesh {} has no triangles with an area", filename));
+    element.fail(fmt::format("mesh {} has no triangles with an area", name));
   }
   if (face_normals) {
     mesh.normals.clear();
   } else if (mesh.normals.empty()) {
-    compute_normals(mesh);
+    compute_normals(mesh, builder.stop);
   } else {
-    orient_by_normals(mesh);
+    orient_by_normals(mesh, builder.stop);
   }
   if (element.boolean("flip_normals", false)) flip(mesh);
-  return mesh;
+  return std::move(mesh);
 }
 
 struct ShapeType {
@@ -134,9 +138,23 @@ bool is_textured(const Scene& scene, const Shape& shape) {
          (shape.emits && shape.radiance.texture != Color::no_texture);
 }
 
+void check_geometry(SceneBuilder& builder, const Element& element, const Shape& shape) {
+  if (const std::string fault = geometry_fault(shape); !fault.empty()) {
+    element.fail(fmt::format("{}: {}", element.title(), fault));
+  }
+  const Mesh* const mesh = std::get_if<Mesh>(&shape.geometry);
+  if (mesh) builder.count_triangles(element.node(), mesh->triangles.size());
+  if (!shape.emits) return;
+  builder.count_lights(element.node(), mesh ? mesh->triangles.size() : 1);
+  if (!(surface_area(shape) > 0.0)) element.fail("a light without area");
+}
+
 }  // namespace
 
 void read_shape(SceneBuilder& builder, pugi::xml_node node) {
+  if (builder.scene.shapes.size() == most_shapes) {
+    builder.xml.fail(node, fmt::format("more than {} shapes, which is the limit", most_shapes));
+  }
   Element element(builder, node);
   const auto* const type =
       std::find_if(shape_types.begin(), shape_types.end(),
@@ -152,14 +170,16 @@ void read_shape(SceneBuilder& builder, pugi::xml_node node) {
   if (lights.size() > 1) element.fail("a shape with two emitters, expected at most one");
   if (!lights.empty()) read_shape_light(builder, lights[0], shape);
   shape.geometry = type->read(builder, element);
-  if (shape.emits && !(surface_area(shape) > 0.0)) element.fail("a light without area");
+  check_geometry(builder, element, shape);
 
   const auto materials = element.objects("bsdf");
   if (materials.size() > 1) element.warn("a shape with two bsdfs: the first one is used");
   shape.material =
       materials.empty() ? default_material(builder) : read_material(builder, materials[0]);
   if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
-    if (mesh->uvs.empty() && is_textured(builder.scene, shape)) make_barycentric_uvs(*mesh);
+    if (mesh->uvs.empty() && is_textured(builder.scene, shape)) {
+      make_barycentric_uvs(*mesh, builder.stop);
+    }
   }
   element.ignore({"silhouette_sampling_weight"});
   element.warn_unused();

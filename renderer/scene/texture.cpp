@@ -8,6 +8,7 @@
 
 #include "renderer/scene/color.h"
 #include "renderer/scene/element.h"
+#include "renderer/scene/limits.h"
 
 namespace quartet {
 namespace {
@@ -25,6 +26,14 @@ Color checkerboard(SceneBuilder& builder, Element& element) {
   board.color0 = read_plain_color(builder, element, "color0", board.color0, ColorRange::any);
   board.color1 = read_plain_color(builder, element, "color1", board.color1, ColorRange::any);
   board.to_uv = uv_transform(element.transform("to_uv"));
+  for (int column = 0; column < 3; ++column) {
+    const glm::vec3 size = glm::abs(board.to_uv[column]);
+    if (!glm::all(glm::lessThanEqual(size, glm::vec3(float(largest_uv_factor))))) {
+      element.fail(fmt::format("to_uv of {} has an entry of {}, at most {} is possible",
+                               element.title(), std::max({size.x, size.y, size.z}),
+                               largest_uv_factor));
+    }
+  }
   builder.scene.textures.push_back(board);
   return {glm::vec3(0.0f), int(builder.scene.textures.size()) - 1};
 }

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/excerpt.h"
+#include "renderer/scene/limits.h"
 #include "renderer/scene/number.h"
 
 namespace quartet {
@@ -20,9 +22,10 @@ std::vector<double> numbers(const XmlDocument& xml, pugi::xml_node node, const c
   std::vector<double> values;
   for (std::string_view part : split(text)) {
     const std::optional<double> value = parse_number(part);
-    if (!value) {
-      xml.fail(node, fmt::format("{} of <{}> is '{}', expected finite numbers", attribute,
-                                 node.name(), text));
+    if (!value || std::abs(*value) > largest_operand) {
+      xml.fail(node,
+               fmt::format("{} of <{}> is '{}', expected finite numbers from {} to {}", attribute,
+                           node.name(), excerpt(text), -largest_operand, largest_operand));
     }
     values.push_back(*value);
   }
@@ -118,8 +121,9 @@ glm::dvec3 read_vector(const XmlDocument& xml, pugi::xml_node node, const glm::d
     if (!node.attribute(axes[std::size_t(i)])) continue;
     const std::vector<double> value = numbers(xml, node, axes[std::size_t(i)]);
     if (value.size() != 1) {
-      xml.fail(node, fmt::format("{} of <{}> is '{}', expected one number", axes[std::size_t(i)],
-                                 node.name(), node.attribute(axes[std::size_t(i)]).value()));
+      xml.fail(node,
+               fmt::format("{} of <{}> is '{}', expected one number", axes[std::size_t(i)],
+                           node.name(), excerpt(node.attribute(axes[std::size_t(i)]).value())));
     }
     result[i] = value[0];
   }
@@ -136,7 +140,7 @@ glm::dmat4 read_transform(const XmlDocument& xml, pugi::xml_node node) {
     if (operation == operations.end()) {
       xml.fail(child, fmt::format("<{}> is no transform, expected translate, scale, rotate, lookat "
                                   "or matrix",
-                                  child.name()));
+                                  excerpt(child.name())));
     }
     result = operation->read(xml, child) * result;
   }
@@ -145,11 +149,11 @@ glm::dmat4 read_transform(const XmlDocument& xml, pugi::xml_node node) {
   const double determinant = std::abs(glm::determinant(linear));
   if (!std::isfinite(determinant) || determinant <= 1e-12 * size) {
     xml.fail(node, fmt::format("transform '{}' cannot be inverted (a scale of 0, or too flat)",
-                               node.attribute("name").value()));
+                               excerpt(node.attribute("name").value())));
   }
   if (result[0][3] != 0.0 || result[1][3] != 0.0 || result[2][3] != 0.0 || result[3][3] != 1.0) {
     xml.fail(node, fmt::format("transform '{}' is not affine: its last row must be 0 0 0 1",
-                               node.attribute("name").value()));
+                               excerpt(node.attribute("name").value())));
   }
   return result;
 }

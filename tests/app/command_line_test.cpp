@@ -35,7 +35,7 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(figure({"--size", "960"}), "such as 960x540");
   expect_usage_error(figure({"--size", "960x540x3"}), "'960x540x3' is not a size");
   expect_usage_error(figure({"--size", "-5x5"}), "is not a size");
-  expect_usage_error(figure({"--size", "2000000x2000000"}), "GiB of memory");
+  expect_usage_error(figure({"--size", "65536x4096"}), "GiB of memory");
   expect_usage_error(figure({"--frames", "0"}), "--frames");
   expect_usage_error(figure({"--frames", "many"}), "--frames");
   expect_usage_error(figure({"--integrator", "bidir"}), "there are: kajiya, mis");

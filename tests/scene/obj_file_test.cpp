@@ -1,3 +1,7 @@
+#include "renderer/scene/obj_file.h"
+
+#include "renderer/cancel.h"
+#include "renderer/scene/mesh.h"
 #include "tests/scene/scene_text.h"
 
 namespace quartet::test {
@@ -139,6 +143,107 @@ TEST(Obj, DegenerateTrianglesAreDroppedAndCounted) {
   expect_one_warning(scene, 2, "2 triangles without area in mesh.obj are left out");
 }
 
+TEST(Obj, AByteOrderMarkAndOddLinesChangeNothing) {
+  const Loaded loaded;
+  const Mesh right = mesh_of(loaded.load(std::string(quad) + "f 1 2 3 4\n", flat));
+  for (const std::string& text :
+       {"\xef\xbb\xbf" + std::string(quad) + "f 1 2 3 4\n",
+        std::string("v 0 0 0\r\nv 2 0 0\r\nv 2 1 0\r\nv 0 1 0\r\nf 1 2 3 4"),
+        std::string("v 0 0 0\rv 2 0 0\rv 2 1 0\rv 0 1 0\rf 1 2 3 4\r"),
+        std::string("  v 0 0\\\n0\nv\t2 0 0 # corner\nv +2 1e0 0.\nv 0 1 0 1\n\nf 1 2\\\n 3 4")}) {
+    const Scene scene = loaded.load(text, flat);
+    EXPECT_EQ(mesh_of(scene).positions, right.positions);
+    EXPECT_EQ(mesh_of(scene).triangles, right.triangles);
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+}
+
+TEST(Obj, AFaceThatIsNotConvexKeepsItsOpening) {
+  // A wall with a way through it, of which a fan from the first corner would make a wall.
+  const Scene scene = Loaded().load(
+      "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 2 2 0\nv 2 0 0\nv 3 0 0\nv 3 3 0\nv 0 3 0\nf 1 2 3 4 5 6 7 8\n",
+      flat);
+  EXPECT_EQ(surface_area(scene.shapes[0]), 7.0);
+  EXPECT_EQ(mesh_of(scene).triangles.size(), 6u);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(Obj, WhatIsLeftOutIsToldWithItsLine) {
+  const Loaded loaded;
+  expect_one_warning(loaded.load(std::string(quad) + "f 1 2 3\nl 1 2\np 1\n", flat), 2,
+                     "mesh.obj: 2 lines that are no faces of flat surfaces are left out (the "
+                     "first: 'l' in line 6)");
+  expect_one_warning(loaded.load(std::string(quad) + "f 1 2 3\nf 1 2\n", flat), 2,
+                     "1 faces of fewer than 3 corners are left out (the first in line 6)");
+  expect_one_warning(loaded.load(std::string(quad) + "f 1 3 2 4\n", flat), 2,
+                     "1 faces cross themselves or enclose nothing and are cut as their corners "
+                     "come (the first in line 5)");
+}
+
+TEST(Obj, EveryNumberIsCheckedWhereverItStands) {
+  const Loaded loaded;
+  const std::string good = std::string(quad) + "f 1 2 3\n";
+  for (const std::string line :
+       {"v 1,5 0 0", "v 0 0 0x10", "v 0 0 0 1.0.0", "v 0 0 0 1 1 nan", "v 0 0 1e39", "vt 0 0 x",
+        "vt 0,5 0,5", "vt inf 0", "vn 0 0 -", "vn 0 0 +-1", "v 0 0 1e400", "v 0 0 \xc2\xbd",
+        "vn 0 0 1\x1b[2J"}) {
+    const std::string message = loaded.error(good + line + "\n");
+    EXPECT_NE(message.find("mesh.obj:6: '"), std::string::npos) << message;
+    EXPECT_NE(message.find("' is not a finite number"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\x1b'), std::string::npos) << message;
+  }
+  EXPECT_NE(loaded.error(good + "v 0 0 0 1 1 1 1 1\n").find("'v' has 8 numbers, expected 3 to 7"),
+            std::string::npos);
+  EXPECT_NE(loaded.error(good + "vn 0 0 1 0\n").find("'vn' has 4 numbers, expected 3"),
+            std::string::npos);
+  EXPECT_NE(loaded.error(good + "vt 1\n").find("'vt' has 1 numbers, expected 2 to 3"),
+            std::string::npos);
+}
+
+TEST(Obj, EveryIndexIsCheckedWhereverItStands) {
+  const Loaded loaded;
+  const std::string good = std::string(quad) + "vt 0 0\nvn 0 0 1\nf 1 2 3\n";
+  for (const std::string word :
+       {"0", "1.5", "x", "1/", "1/0", "1//", "1/1/", "1/1/1/1", "/1", "1e0", "+1", "99999999999",
+        "-99999999999", "1,2", "1/x/1", "1//1/"}) {
+    const std::string message = loaded.error(good + "f 2 3 " + word + "\n");
+    EXPECT_NE(message.find("mesh.obj:8: '" + word + "' is no corner of a face"), std::string::npos)
+        << message;
+  }
+  const auto expect_missing = [&](std::string_view word, std::string_view what) {
+    const std::string message = loaded.error(good + "f 1 2 " + std::string(word) + "\n");
+    EXPECT_NE(message.find("mesh.obj:8: a face uses " + std::string(what)), std::string::npos)
+        << message;
+  };
+  expect_missing("5", "vertex 5, the file has 4");
+  expect_missing("1/2", "uv 2, the file has 1");
+  expect_missing("1//2", "normal 2, the file has 1");
+  expect_missing("2147483647", "vertex 2147483647, the file has 4");
+  expect_missing("-5", "vertex -5, there are 4 above it");
+  expect_missing("1/-2", "uv -2, there are 1 above it");
+  expect_missing("1/1/-2147483648", "normal -2147483648, there are 1 above it");
+  // A corner may stand below the face that uses it.
+  EXPECT_NO_THROW(loaded.load("f 1 2 3\n" + std::string(quad)));
+}
+
+TEST(Obj, TrianglesTooSmallForSinglePrecisionAreLeftOut) {
+  const Scene scene =
+      Loaded().load(std::string(quad) + "v 1e-17 0 0\nv 0 1e-17 0\nf 1 2 3\nf 1 5 6\n", flat);
+  EXPECT_EQ(mesh_of(scene).triangles.size(), 1u);
+  expect_one_warning(scene, 2, "1 triangles without area");
+}
+
+TEST(Obj, CanBeCancelled) {
+  const TemporaryFolder folder;
+  std::string text = std::string(quad);
+  for (int i = 0; i < 10'000; ++i) text += "f 1 2 3\n";
+  const std::filesystem::path path = folder.write("mesh.obj", text);
+  std::stop_source stop;
+  EXPECT_EQ(read_obj(path, stop.get_token()).mesh.triangles.size(), 10'000u);
+  stop.request_stop();
+  EXPECT_THROW(read_obj(path, stop.get_token()), Cancelled);
+}
+
 TEST(Obj, Errors) {
   const Loaded loaded;
   expect_message(loaded.error("v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n"), 3,
@@ -150,7 +255,7 @@ TEST(Obj, Errors) {
   EXPECT_NE(loaded.error("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 x\nf 1 2 3\n").find("mesh.obj:4: 'x'"),
             std::string::npos);
   expect_message(loaded.error("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n"), 3,
-                 "a face uses vertex 9, the file has 3");
+                 "mesh.obj:4: a face uses vertex 9, the file has 3");
   expect_message(loaded.error("v 0 0 0\nv 1 0 0\nv 1 1 0\n"), 2,
                  "mesh mesh.obj has no triangles with an area");
   expect_message(loaded.error("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", mesh_light), 2,
@@ -160,7 +265,7 @@ TEST(Obj, Errors) {
                  2, "too far out");
   expect_message(error_of("<shape type=\"obj\">\n<string name=\"filename\" value=\"no.obj\"/>"
                           "</shape>"),
-                 3, "cannot read the mesh file no.obj");
+                 3, "cannot read no.obj: ");
   expect_message(error_of("<shape type=\"obj\"/>"), 2, "has no filename");
 }
 

@@ -113,7 +113,7 @@ TEST(Sensor, Errors) {
   };
   for (const std::string value : {"0", "-10", "180", "200"}) {
     expect_message(error("perspective", "<float name=\"fov\" value=\"" + value + "\"/>"), 2,
-                   "must be between 0 and 180");
+                   "must be between 0.01 and 179.9");
   }
   expect_message(error("perspective", R"(<float name="fov" value="abc"/>)"), 3,
                  "fov of sensor 'perspective' is 'abc', expected a finite number");
@@ -131,13 +131,13 @@ TEST(Sensor, Errors) {
                  2, "shears");
   expect_message(error("perspective", R"(<film type="hdrfilm">
     <integer name="width" value="0"/></film>)"),
-                 3, "width is 0, must be at least 1");
+                 3, "a picture of 0 x 576 pixels, each side must be from 1 to 65536");
   expect_message(error("perspective", R"(<film type="hdrfilm">
 <integer name="height" value="1.5"/></film>)"),
                  4, "'1.5', expected a whole number");
   expect_message(error("thinlens", fov), 2, "no aperture_radius");
   expect_message(error("thinlens", R"(<float name="aperture_radius" value="-1"/>)"), 2,
-                 "must not be negative");
+                 "aperture_radius is -1, must be from 0 to");
   expect_message(error("thinlens", R"(<float name="aperture_radius" value="1"/>
 <float name="focus_distance" value="0"/>)"),
                  4, "focus_distance of sensor 'thinlens' is 0, must be above 0");
