@@ -1,8 +1,12 @@
 #include "renderer/trace/lights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "renderer/image/image.h"
+#include "renderer/scene/limits.h"
 #include "renderer/trace/color_at.h"
 #include "renderer/trace/frame.h"
 
@@ -30,6 +34,46 @@ Vec2<F> square_to_triangle(F u, F v) {
   return {upper ? 0.5f * u : u - 0.5f * v, upper ? v - 0.5f * u : 0.5f * v};
 }
 
+constexpr double all_steps = 0x1p24;  // random numbers that there are
+
+/// Where the random numbers of each light end, in steps of theirs, so that each probability is
+/// exactly the share of numbers that choose its light. All but `floor` of each are dealt by share.
+std::vector<std::uint32_t> dealt_steps(const std::vector<double>& shares, std::uint32_t floor) {
+  std::vector<std::uint32_t> ends;
+  const double rest = all_steps - double(floor) * double(shares.size());
+  double sum = 0.0;
+  for (const double share : shares) {
+    sum += share;
+    ends.push_back(std::uint32_t(std::round(sum * rest)) + floor * std::uint32_t(ends.size() + 1));
+  }
+  if (!ends.empty()) {
+    ends.back() = std::uint32_t(all_steps);
+  }
+  return ends;
+}
+
+/// The same by power alone, unless a light is so dim that it would hardly be chosen: nothing else
+/// finds a point light, and what is chosen once in a million samples is noise. Then each light gets
+/// some numbers before the rest is dealt; all of these together are a small share.
+std::vector<std::uint32_t> steps_by_share(const std::vector<double>& shares) {
+  constexpr double most = 256.0;
+  constexpr double most_together = 0x1p18;
+  const auto floor = std::uint32_t(std::clamp(most_together / double(shares.size()), 1.0, most));
+  std::vector<std::uint32_t> ends = dealt_steps(shares, 0);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i] - (i > 0 ? ends[i - 1] : 0) < floor) {
+      return dealt_steps(shares, floor);
+    }
+  }
+  return ends;
+}
+
+/// A bijection of the numbers in [0, 1) that the sampler gives: a number and what it is sent to are
+/// the points of a lattice that fills the unit square evenly (Korobov, with the golden ratio).
+float lattice_partner(float v) {
+  return float((std::uint32_t(v * 0x1p24f) * 0x9e3779u) & 0xffffffu) * 0x1p-24f;
+}
+
 // A shadow ray stops short of the light by more than the rounding error of both ends.
 constexpr float short_of_light = 1.0f - 1e-4f;
 
@@ -55,6 +99,10 @@ Lights::Lights(const Scene& scene, glm::vec3 bounds_min, glm::vec3 bounds_max)
           {.origin = point.position, .radiance = point.intensity, .kind = Kind::point});
     }
   }
+  if (lights_.size() > most_lights) {
+    throw std::runtime_error(
+        fmt::format("{} lights, at most {} are possible", lights_.size(), most_lights));
+  }
   choose_by_power(bounds_min, bounds_max);
 }
 
@@ -63,9 +111,12 @@ void Lights::add(std::uint32_t shape_index, const Mesh& mesh) {
     Light light{.origin = mesh.positions[a], .kind = kind, .shape = shape_index, .primitive = i};
     light.edge1 = mesh.positions[b] - light.origin;
     light.edge2 = mesh.positions[c] - light.origin;
-    const glm::vec3 normal = glm::cross(light.edge1, light.edge2);
-    light.area = glm::length(normal) * (kind == Kind::triangle ? 0.5f : 1.0f);
-    light.normal = glm::normalize(normal);
+    light.normal = unit_cross(light.edge1, light.edge2);
+    light.area = glm::length(glm::cross(light.edge1, light.edge2));
+    if (light.area < 1e-15f) {  // its square left the range of float
+      light.area = float(glm::length(glm::cross(glm::dvec3(light.edge1), glm::dvec3(light.edge2))));
+    }
+    light.area *= kind == Kind::triangle ? 0.5f : 1.0f;
     lights_.push_back(light);
   };
   if (mesh.parallelogram) {
@@ -114,14 +165,14 @@ void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
     power.push_back(p);
     total += p;
   }
-  double sum = 0.0;
+  for (double& p : power) {
+    // An environment around nothing has no power by this measure, yet must be found.
+    p = total > 0.0 ? p / total : 1.0 / double(lights_.size());
+  }
+  const std::vector<std::uint32_t> ends = steps_by_share(power);
   float before = 0.0f;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    // An environment around nothing has no power by this measure, yet must be found.
-    sum += total > 0.0 ? power[i] / total : 1.0 / double(lights_.size());
-    // In steps of the random numbers, so that each probability is exactly the share of numbers that
-    // choose its light. A light too dim for one step is left to BSDF sampling.
-    const float until = float(std::round(sum * 0x1p24) * 0x1p-24);
+    const float until = float(ends[i]) * 0x1p-24f;
     Light& light = lights_[i];
     light.probability = until - before;
     if (light.kind != Kind::environment && light.kind != Kind::point) {
@@ -135,8 +186,9 @@ void Lights::choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max) {
   }
 }
 
-/// The light of a number, and what is left of the number.
-Lights::Choice Lights::choose(float u) const {
+/// The light of a number, and what is left of the number. What is left of few steps is few numbers,
+/// and would sample the light in few places; `v`, which chooses the point with it, fills them up.
+Lights::Choice Lights::choose(float u, float v) const {
   if (lights_.size() == 1) {
     return {lights_.data(), u};
   }
@@ -144,15 +196,17 @@ Lights::Choice Lights::choose(float u) const {
   // What is left of u within the light's interval is uniform again, and as well stratified. A
   // number stands for its whole step: a light of few steps would else be sampled off its centre.
   const float below = chosen > 0 ? cdf_[chosen - 1] : 0.0f;
-  return {&lights_[chosen],
-          std::clamp((u - below + 0x1p-25f) / (cdf_[chosen] - below), 0.0f, 0x1.fffffep-1f)};
+  const float width = cdf_[chosen] - below;
+  constexpr float few_steps = 0x1p-16f;
+  const float in_step = width <= few_steps ? 0x1p-24f * lattice_partner(v) : 0x1p-25f;
+  return {&lights_[chosen], std::clamp((u - below + in_step) / width, 0.0f, 0x1.fffffep-1f)};
 }
 
 LightSample Lights::sample(glm::vec3 from, float u, float v) const {
   if (lights_.empty()) {
     return {};
   }
-  const Choice choice = choose(u);
+  const Choice choice = choose(u, v);
   return sample(*choice.light, from, choice.u, v);
 }
 
@@ -228,7 +282,7 @@ LightSample8 Lights::sample(const Vec8& from, Float8 u, Float8 v, Mask8 wanted) 
   } else {
     const float* rows[simd_lanes];
     for (int i = 0; i < simd_lanes; ++i) {
-      const Choice choice = choose(u[i]);
+      const Choice choice = choose(u[i], v[i]);
       const Light& light = *choice.light;
       lights[i] = &light;
       u[i] = choice.u;

@@ -26,7 +26,8 @@ struct LightSample8 {
   Mask8 is_point;
 };
 
-/// All emitters of a scene, chosen with a probability proportional to their power.
+/// All emitters of a scene, chosen with a probability proportional to their power; where there are
+/// dim ones beside bright ones, each has a small one at least.
 class Lights {
  public:
   /// `scene` is referred to, and must outlive this.
@@ -73,7 +74,7 @@ class Lights {
   void add(std::uint32_t shape_index, const Sphere& sphere);
   void add(std::uint32_t shape_index, const Disk& disk);
   void choose_by_power(glm::vec3 bounds_min, glm::vec3 bounds_max);
-  Choice choose(float u) const;
+  Choice choose(float u, float v) const;
   LightSample sample(const Light& light, glm::vec3 from, float u, float v) const;
   void sample_sphere(const Light& light, glm::vec3 from, float u, float v, LightSample& s) const;
   void sample_flat(const Light& light, glm::vec3 from, float u, float v, LightSample& s) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -256,9 +257,10 @@ TEST(Lights, AreChosenByPower) {
 }
 
 TEST(Lights, ProbabilityIsExactlyTheShareOfNumbers) {
-  // Random numbers have 24 bits: a light with a millionth of the power is chosen by 17 of them or
-  // by 16, and its probability must say which, or what it adds would be wrong by percents.
-  for (const float share : {0.3f, 1e-3f, 1e-6f, 3e-7f, 1e-9f}) {
+  // Random numbers have 24 bits: how many of them choose a light its probability must say exactly,
+  // or what it adds would be wrong. However dim it is, there are some.
+  constexpr double least = 256.0 * 0x1p-24;
+  for (const float share : {0.3f, 1e-3f, 1e-6f, 3e-7f, 1e-9f, 1e-18f}) {
     Scene scene;
     const float area = 4.0f;
     add_light(scene, parallelogram({-1.0f, -1.0f, 1.0f}, {0.0f, 2.0f, 0.0f}, {2.0f, 0.0f, 0.0f}),
@@ -276,7 +278,8 @@ TEST(Lights, ProbabilityIsExactlyTheShareOfNumbers) {
       (at(middle).radiance.x == 1.0f ? first : second) = middle;
     }
     const double chosen = double((1 << 24) - second) * 0x1p-24;
-    EXPECT_NEAR(chosen, double(share), 0x1p-24);
+    const bool dim = double(share) < least;
+    EXPECT_NEAR(chosen, dim ? least + double(share) * (1.0 - 2.0 * least) : double(share), 0x1p-24);
     const Ray ray{{0.0f, 0.0f, 1.2f}, {0.0f, 0.0f, 1.0f}};
     Hit hit{};
     ASSERT_TRUE(trace.accel().closest_hit(ray, hit));
@@ -287,19 +290,77 @@ TEST(Lights, ProbabilityIsExactlyTheShareOfNumbers) {
   }
 }
 
-TEST(Lights, ALightOfFewNumbersIsSampledAroundItsCentre) {
+TEST(Lights, ALightOfFewNumbersIsSampledAllOver) {
   Scene scene;
   const auto flat = parallelogram(corner, {0.0f, 1.4f, 0.0f}, {1.0f, 0.0f, 0.0f});
   add_light(scene, flat, 1.0f);
-  add_light(scene, flat, 0x3p-24f);
+  add_light(scene, flat, 1e-12f);
   const TraceScene trace(std::move(scene));
-  double sum = 0.0;
-  for (const float u : {1.0f - 0x3p-24f, 1.0f - 0x2p-24f, 1.0f - 0x1p-24f}) {
-    const LightSample s = trace.lights().sample(glm::vec3(0.0f), u, 0.5f);
-    ASSERT_EQ(s.radiance, glm::vec3(0x3p-24f)) << "only the dim light has these numbers";
-    sum += double(s.direction.y / s.direction.z);
+  constexpr int numbers = 256;
+  constexpr int places = 64;
+  // Along the first edge: all of it, and between two numbers too, where the other number leads.
+  std::array<int, std::size_t(numbers) * 8> parts{};
+  for (int number = 0; number < numbers; ++number) {
+    for (int i = 0; i < places; ++i) {
+      const float u = 1.0f - float(number + 1) * 0x1p-24f;
+      const LightSample s =
+          trace.lights().sample(glm::vec3(0.0f), u, (float(i) + 0.5f) / float(places));
+      ASSERT_EQ(s.radiance, glm::vec3(1e-12f)) << "only the dim light has these numbers";
+      const float along = (s.direction.y / s.direction.z - corner.y) / 1.4f;
+      ++parts.at(std::size_t(std::clamp(along, 0.0f, 0.99999f) * float(parts.size())));
+    }
   }
-  EXPECT_NEAR(sum / 3.0, 0.3, 1e-6);
+  for (const int count : parts) {
+    EXPECT_NEAR(count, places / 8, places / 16);
+  }
+}
+
+TEST(Lights, EveryKindIsChosenHoweverDim) {
+  // A point light is found in no other way; the others would be noise without end.
+  const std::vector<std::function<void(Scene&, float)>> kinds{
+      [](Scene& s, float l) {
+        add_light(s, parallelogram(corner, {0.0f, 1.4f, 0.0f}, {1.0f, 0.0f, 0.0f}), l);
+      },
+      [](Scene& s, float l) { add_light(s, two_triangles(), l); },
+      [](Scene& s, float l) {
+        add_light(s, sphere({0.0f, 0.0f, 3.0f}, 0.5f), l);
+      },
+      [](Scene& s, float l) { add_light(s, disk(0.8f), l); },
+      [](Scene& s, float l) { s.environment = glm::vec3(l); },
+      [](Scene& s, float l) {
+        s.points.push_back({{0.1f, 0.2f, 0.5f}, glm::vec3(l)});
+      },
+  };
+  for (std::size_t dim = 0; dim < kinds.size(); ++dim) {
+    for (std::size_t bright = 0; bright < kinds.size(); ++bright) {
+      if (bright == dim) {
+        continue;
+      }
+      Scene scene;
+      // An environment has power by the size of the scene.
+      add_shape(scene, parallelogram({-1.0f, -1.0f, -1.0f}, {0.0f, 2.0f, 0.0f}, {2.0f, 0.0f, 0.0f}),
+                diffuse(0.5f));
+      kinds[bright](scene, 1e6f);
+      kinds[dim](scene, 1e-10f);
+      const TraceScene trace(std::move(scene));
+      // The interval of the dim one is among the first or last numbers, or between the two
+      // triangles: every 128th number meets 256 of them somewhere.
+      double probability = 0.0;
+      int found = 0;
+      constexpr int step = 128;
+      for (int number = 0; number < 1 << 24; number += step) {
+        const LightSample s =
+            trace.lights().sample(glm::vec3(0.0f), float(number) * 0x1p-24f, 0.5f);
+        // Also of the point light, within 1 of which nothing else is as dark.
+        if (s.radiance.x > 0.0f && s.radiance.x < 1e-3f) {
+          ++found;
+          probability += step * 0x1p-24;
+        }
+      }
+      EXPECT_GE(found, 256 / step) << dim << " beside " << bright;
+      EXPECT_LT(probability, 1e-4) << dim << " beside " << bright;
+    }
+  }
 }
 
 TEST(Lights, ShineOnOneSideOnly) {
