@@ -7,6 +7,10 @@
 namespace quartet {
 
 /// Moves a camera around what it looks at. The scene's own camera is where it comes home to.
+///
+/// However often and in whatever order, the moves below lead to no camera that the tracer cannot
+/// take (see camera_fault in limits.h): they stop at distances from the pivot of a ten thousandth
+/// and of ten thousand times that of the scene's own camera, and where coordinates end.
 struct CameraControls {
   Camera home;
   glm::vec3 pivot{0.0f};  ///< what the camera turns around
