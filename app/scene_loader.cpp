@@ -1,42 +1,73 @@
 #include "app/scene_loader.h"
 
-#include <chrono>
+#include <fmt/format.h>
+
+#include <new>
 #include <utility>
 
-namespace quartet {
+#include "renderer/cancel.h"
 
-void SceneLoader::start(Order order) {
-  running_ = std::async(std::launch::async, [order = std::move(order), wake = wake_] {
-    Result result;
-    result.asked = order.scene;
-    try {
-      result.scene = std::make_shared<const TraceScene>(open_scene(order.scene, order.parameters));
-    } catch (const std::exception& error) {
-      result.error = error.what();
-    }
-    wake();
-    return result;
-  });
+namespace quartet {
+namespace {
+
+SceneLoader::Result load_result(const SceneLoader::Open& open, const SceneLoader::Order& order,
+                                const std::stop_token& stop) {
+  SceneLoader::Result result;
+  result.asked = order.scene;
+  try {
+    result.scene = open(order, stop);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    result.error = fmt::format("{}: there is not enough memory for it", order.scene);
+  } catch (const std::exception& error) {
+    result.error = error.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+SceneLoader::SceneLoader(std::function<void()> wake, Open open)
+    : task_(
+          [open = std::move(open)](const std::optional<Order>& order, const std::stop_token& stop,
+                                   const Task::Publish& publish) {
+            if (!order) {
+              return;
+            }
+            try {
+              publish(load_result(open, *order, stop));
+            } catch (const Cancelled&) {
+              // Another is wanted, or none.
+            }
+          },
+          std::move(wake)) {
+}
+
+std::shared_ptr<const TraceScene> SceneLoader::open_for_tracing(const Order& order,
+                                                                const std::stop_token& stop) {
+  return std::make_shared<const TraceScene>(open_scene(order.scene, order.parameters, stop), stop);
 }
 
 void SceneLoader::load(const std::string& scene, const SceneParameters& parameters) {
-  if (busy()) {
-    next_ = Order{scene, parameters};
-  } else {
-    start({scene, parameters});
-  }
+  asked_ = task_.submit(Order{scene, parameters});
+}
+
+void SceneLoader::cancel() {
+  task_.submit(std::nullopt);
+  asked_ = 0;
 }
 
 std::optional<SceneLoader::Result> SceneLoader::poll() {
-  if (!busy() || running_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+  if (!busy()) {
     return std::nullopt;
   }
-  Result result = running_.get();
-  if (next_) {
-    start(*std::exchange(next_, std::nullopt));
-    return std::nullopt;  // nobody wants this one any more
+  const auto latest = task_.latest();
+  if (latest->input != asked_) {
+    return std::nullopt;
   }
-  return result;
+  asked_ = 0;
+  return latest->output;
 }
 
 }  // namespace quartet

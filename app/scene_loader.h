@@ -1,22 +1,25 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "renderer/measure/background_task.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/trace_scene.h"
 
 namespace quartet {
 
 /// Loads scenes beside the window, which goes on meanwhile: a large file and its hierarchy take
-/// seconds. One at a time; of several that wait, the newest.
+/// seconds. The newest wins: it ends the loading of the one before.
 class SceneLoader {
  public:
-  /// `wake` is called, on another thread, when there is a result.
-  explicit SceneLoader(std::function<void()> wake) : wake_(std::move(wake)) {}
+  struct Order {
+    std::string scene;
+    SceneParameters parameters;
+  };
 
   struct Result {
     std::string asked;
@@ -24,22 +27,30 @@ class SceneLoader {
     std::string error;                        ///< one line: file, line, reason
   };
 
+  /// Makes a scene ready for tracing. Throws Cancelled soon once a stop is asked for.
+  using Open =
+      std::function<std::shared_ptr<const TraceScene>(const Order&, const std::stop_token& stop)>;
+
+  /// `wake` is called, on another thread, when there is a result.
+  explicit SceneLoader(std::function<void()> wake, Open open = open_for_tracing);
+
   void load(const std::string& scene, const SceneParameters& parameters = {});
-  bool busy() const { return running_.valid(); }
+  /// Nothing is wanted any more.
+  void cancel();
+  bool busy() const { return asked_ != 0; }
   /// A result, once.
   std::optional<Result> poll();
+  /// Asks what is under way to end, without waiting.
+  void close() { task_.close(); }
 
  private:
-  struct Order {
-    std::string scene;
-    SceneParameters parameters;
-  };
+  using Task = BackgroundTask<std::optional<Order>, Result>;
 
-  void start(Order order);
+  static std::shared_ptr<const TraceScene> open_for_tracing(const Order& order,
+                                                            const std::stop_token& stop);
 
-  std::function<void()> wake_;
-  std::future<Result> running_;
-  std::optional<Order> next_;
+  std::uint64_t asked_ = 0;  // 0: nothing
+  Task task_;
 };
 
 }  // namespace quartet

@@ -14,8 +14,12 @@ Session::Session(std::function<void()> notify) : mailbox_(std::make_unique<Mailb
 }
 
 Session::~Session() {
-  mailbox_->close();
+  close();
   thread_.join();
+}
+
+void Session::close() {
+  mailbox_->close();
 }
 
 std::uint64_t Session::submit(LabRequest request) {

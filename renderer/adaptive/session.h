@@ -70,6 +70,8 @@ class Session {
   explicit Session(std::function<void()> notify = {});
   /// Stops within the time of a few thousand samples.
   ~Session();
+  /// Asks it to stop, without waiting.
+  void close();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 

@@ -31,13 +31,9 @@ class BackgroundTask {
   explicit BackgroundTask(Work work, std::function<void()> notify = {})
       : work_(std::move(work)), notify_(std::move(notify)), thread_([this] { run(); }) {}
 
+  /// Waits for the work under way, which was asked to stop.
   ~BackgroundTask() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-      stop_.request_stop();
-    }
-    arrived_.notify_one();
+    close();
     thread_.join();
   }
   BackgroundTask(const BackgroundTask&) = delete;
@@ -55,6 +51,16 @@ class BackgroundTask {
     }
     arrived_.notify_one();
     return number;
+  }
+
+  /// Asks the work under way to stop; no other is begun. So several tasks can end at the same time.
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      closed_ = true;
+      stop_.request_stop();
+    }
+    arrived_.notify_one();
   }
 
   /// Never null.
