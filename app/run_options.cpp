@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "app/messages.h"
 #include "app/number_option.h"
 #include "app/shell_words.h"
+#include "renderer/adaptive/memory_need.h"
 #include "renderer/scene/limits.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"
@@ -24,23 +24,9 @@ constexpr double gib = 1024.0 * 1024.0 * 1024.0;
 
 /// A picture that cannot fit should be refused before an hour of work, not after.
 void check_memory(const RenderSettings& settings, std::size_t lanes, const std::string& size_name) {
-  // A pixel of a lane (film with statistics, error, counts, plan) and of the store with a few
-  // samples.
-  constexpr double lane_bytes = 150.0;
-  constexpr double store_bytes = 150.0;
-  const double pixels = double(settings.width) * double(settings.height);
-  const double needed = pixels * (lane_bytes * double(lanes) + store_bytes);
-  const double available = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-  if (needed > available) {
-    throw UsageError(fmt::format(
-        "{}: {}x{} would take about {:.0f} GiB of memory, and this machine has {:.0f} GiB; "
-        "choose a smaller size",
-        size_name, settings.width, settings.height, needed / gib, available / gib));
-  }
-  if (pixels > double(std::numeric_limits<std::int32_t>::max())) {
-    throw UsageError(fmt::format("{}: {}x{} are more pixels than can be counted, {}", size_name,
-                                 settings.width, settings.height,
-                                 std::numeric_limits<std::int32_t>::max()));
+  if (const std::string refusal = memory_refusal(settings.width, settings.height, lanes);
+      !refusal.empty()) {
+    throw UsageError(fmt::format("{}: {}", size_name, refusal));
   }
 }
 
