@@ -1,10 +1,15 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <optional>
 
+#include "app/closing_time.h"
 #include "app/commands.h"
 #include "app/config_file.h"
+#include "app/end_signals.h"
 #include "app/imgui_screen.h"
 #include "app/lab_driver.h"
 #include "app/messages.h"
@@ -23,7 +28,13 @@ bool can_be_found(const std::string& scene) {
   }
 }
 
+/// What is under way when the window closes may take this long to end, and no longer.
+constexpr auto closing_time = std::chrono::milliseconds(350);
+
 void run_window(const WindowOptions& options) {
+  // What must outlast all else comes first.
+  const BlockedSignals signals;
+  std::optional<ClosingTime> closing;
   const std::filesystem::path config = config_path();
   if (options.reset_settings && !config.empty()) {
     std::filesystem::remove(config);
@@ -38,7 +49,12 @@ void run_window(const WindowOptions& options) {
   }
   state.ui_scale = options.ui_scale.value_or(state.ui_scale);
 
-  Window window("Quartet", memory.width, memory.height);
+  Window window("Quartet", {memory.width, memory.height});
+  std::atomic<bool> ended = false;
+  const SignalWatch watch(signals, [&] {
+    ended = true;
+    window.wake();
+  });
   ImguiScreen screen;
   const std::string scene = state.scene;
   LabDriver driver(
@@ -50,7 +66,7 @@ void run_window(const WindowOptions& options) {
   WindowHandlers handlers;
   handlers.key = [&](const KeyEvent& event) { driver.window().key(event); };
   handlers.drop = [&](const std::string& path) { driver.drop(path); };
-  handlers.wants_to_close = [&] { return driver.window().state().quit; };
+  handlers.wants_to_close = [&] { return ended || driver.window().state().quit; };
   handlers.draw = [&](double seconds) {
     window.begin_imgui_frame();
     driver.begin_frame(screen, window.monitor_scale());
@@ -64,7 +80,10 @@ void run_window(const WindowOptions& options) {
   };
   const std::shared_ptr<void> attached = window.attach_imgui(std::move(handlers));
   window.run();
-  window.size(memory.width, memory.height);
+  const WindowSize size = window.size_at_scale_one();
+  memory.width = size.width;
+  memory.height = size.height;
+  window.hide();
   if (!config.empty()) {
     LabState last = driver.window().state();
     if (can_be_found(last.scene)) {
@@ -72,6 +91,7 @@ void run_window(const WindowOptions& options) {
     }
     save_config(config, last, memory);
   }
+  closing.emplace(closing_time);
 }
 
 /// The first of out, out-2, out-3, … that is not there, or empty: nobody asked for what is in one

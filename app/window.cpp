@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <optional>
+
+#include "ui/keyboard.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -19,6 +22,7 @@ struct Window::Native {
   WindowHandlers handlers;
   std::atomic<bool> woken = true;
   bool input = true;
+  Keyboard keyboard;
 };
 
 namespace {
@@ -73,40 +77,47 @@ int special_key(int key) {
   }
 }
 
-/// The key as the user's keyboard names it: a German Z is a Z.
-int key_of(int key, int scancode) {
-  if (const int special = special_key(key)) {
-    return special;
+/// What stands there on a US keyboard: GLFW names places by it.
+int place_of(int key) {
+  if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) {
+    return 'a' + (key - GLFW_KEY_A);
   }
-  const char* const name = glfwGetKeyName(key, scancode);
-  if (name && name[0] && !name[1]) {
-    return name[0];
+  const bool known =
+      (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) || key == GLFW_KEY_COMMA || key == GLFW_KEY_PERIOD;
+  return known ? key : 0;
+}
+
+void pass_on(Window::Native& native, const std::optional<KeyEvent>& event) {
+  // While a text is typed keys belong to it; but one that was held must still come up.
+  const bool typing = ImGui::GetIO().WantTextInput;
+  if (event && (!typing || !event->down) && native.handlers.key) {
+    native.handlers.key(*event);
   }
-  return key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? 'a' + (key - GLFW_KEY_A) : 0;
 }
 
 void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
   Window::Native& native = native_of(window);
   native.input = true;
-  KeyEvent event;
-  event.key = key_of(key, scancode);
-  event.down = action != GLFW_RELEASE;
-  event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
-  event.ctrl = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
-  // While a text is typed keys belong to it; but one that was held must still come up.
-  const bool typing = ImGui::GetIO().WantTextInput;
-  if (event.key != 0 && event.key != '?' && (!typing || !event.down) && native.handlers.key) {
-    native.handlers.key(event);
+  if (action == GLFW_RELEASE) {
+    pass_on(native, native.keyboard.up(scancode));
+    return;
+  }
+  if ((modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) {
+    return;  // commands to somebody else
+  }
+  const bool shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+  if (const int special = special_key(key)) {
+    pass_on(native, native.keyboard.down_as(scancode, special, shift));
+  } else {
+    native.keyboard.down(scancode, place_of(key), shift);
   }
 }
 
-/// The question mark is on another key in every country: it comes as a character.
+/// What the key gives that went down just before.
 void on_char(GLFWwindow* window, unsigned character) {
   Window::Native& native = native_of(window);
   native.input = true;
-  if (character == '?' && !ImGui::GetIO().WantTextInput && native.handlers.key) {
-    native.handlers.key({'?', true, true, false});
-  }
+  pass_on(native, native.keyboard.gave(character));
 }
 
 void on_drop(GLFWwindow* window, int count, const char** paths) {
@@ -117,6 +128,48 @@ void on_drop(GLFWwindow* window, int count, const char** paths) {
   }
 }
 
+/// Units of the window's size for one of a display at scale 1. Where such units are scaled by the
+/// system (Wayland) it is 1, whatever the text's scale.
+float size_scale(GLFWwindow* window) {
+  float x = 1.0f;
+  float y = 1.0f;
+  glfwGetWindowContentScale(window, &x, &y);
+  int width = 0;
+  int pixels = 0;
+  int ignored = 0;
+  glfwGetWindowSize(window, &width, &ignored);
+  glfwGetFramebufferSize(window, &pixels, &ignored);
+  const float scale = std::max(x, y);
+  return std::max(1.0f, pixels > 0 ? scale * float(width) / float(pixels) : scale);
+}
+
+/// What the screen has room for beside panels, less the frame that the window gets.
+WindowSize room_on_screen(GLFWwindow* window) {
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  if (!monitor) {
+    return {};
+  }
+  int x = 0;
+  int y = 0;
+  WindowSize area;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &area.width, &area.height);
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+  glfwGetWindowFrameSize(window, &left, &top, &right, &bottom);
+  return {std::max(0, area.width - left - right), std::max(0, area.height - top - bottom)};
+}
+
+void fit_to_screen(GLFWwindow* window, const WindowSize& wanted) {
+  const WindowSize room = room_on_screen(window);
+  const WindowSize size = fitting_window(wanted, size_scale(window), room);
+  const auto least = [](int usual, int most) { return most > 0 ? std::min(usual, most) : usual; };
+  glfwSetWindowSizeLimits(window, least(960, room.width), least(600, room.height), GLFW_DONT_CARE,
+                          GLFW_DONT_CARE);
+  glfwSetWindowSize(window, size.width, size.height);
+}
+
 template <class... Arguments>
 void on_input(GLFWwindow* window, Arguments...) {
   native_of(window).input = true;
@@ -124,7 +177,7 @@ void on_input(GLFWwindow* window, Arguments...) {
 
 }  // namespace
 
-Window::Window(const std::string& title, int width, int height)
+Window::Window(const std::string& title, const WindowSize& wanted)
     : native_(std::make_unique<Native>()) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
     throw NoDisplay("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
@@ -137,8 +190,8 @@ Window::Window(const std::string& title, int width, int height)
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  native_->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until its size is right
+  native_->window = glfwCreateWindow(wanted.width, wanted.height, title.c_str(), nullptr, nullptr);
   if (!native_->window) {
     glfwTerminate();
     throw NoDisplay(fmt::format("the display has no OpenGL 3.3 ({})", last_error));
@@ -153,7 +206,8 @@ Window::Window(const std::string& title, int width, int height)
     throw NoDisplay(error.what());
   }
   glfwSetWindowUserPointer(native_->window, native_.get());
-  glfwSetWindowSizeLimits(native_->window, 960, 600, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  fit_to_screen(native_->window, wanted);
+  glfwShowWindow(native_->window);
 }
 
 Window::~Window() {
@@ -172,8 +226,10 @@ float Window::monitor_scale() const {
   return std::max(1.0f, std::max(x, y));
 }
 
-void Window::size(int& width, int& height) const {
-  glfwGetWindowSize(native_->window, &width, &height);
+WindowSize Window::size_at_scale_one() const {
+  WindowSize size;
+  glfwGetWindowSize(native_->window, &size.width, &size.height);
+  return remembered_window(size, size_scale(native_->window));
 }
 
 void Window::framebuffer_size(int& width, int& height) const {
@@ -207,6 +263,11 @@ void Window::begin_imgui_frame() {
 
 void Window::swap() {
   glfwSwapBuffers(native_->window);
+}
+
+void Window::hide() {
+  glfwHideWindow(native_->window);
+  glfwPollEvents();
 }
 
 void Window::wake() {

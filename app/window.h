@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/gl_functions.h"
+#include "app/window_size.h"
 #include "ui/keys.h"
 
 namespace quartet {
@@ -28,15 +29,17 @@ struct WindowHandlers {
 /// at a time.
 class Window {
  public:
+  /// Of that size at scale 1, times the scale of the display, or of what room the screen has.
   /// Throws NoDisplay.
-  Window(const std::string& title, int width, int height);
+  Window(const std::string& title, const WindowSize& wanted);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   const GlFunctions& gl() const;
   float monitor_scale() const;
-  void size(int& width, int& height) const;
+  /// To open another one alike.
+  WindowSize size_at_scale_one() const;
   void framebuffer_size(int& width, int& height) const;
 
   /// Connects ImGui, whose context must be current, with this window's input, for as long as what
@@ -50,6 +53,8 @@ class Window {
   /// From any thread: there is something new to draw.
   void wake();
   void swap();
+  /// It is seen no more.
+  void hide();
 
   struct Native;
 

@@ -1,5 +1,6 @@
 #include "ui/keys.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -41,10 +42,17 @@ void dolly_by(LabState& state, float steps) {
   camera = dolly(state.camera, camera, steps);
 }
 
+void change_exposure(LabState& state, float stops) {
+  float& exposure = state.view.exposure;
+  exposure = std::clamp(exposure + stops, -largest_exposure, largest_exposure);
+}
+
 void close(LabState& state) {
   if (state.export_form.open || state.help_open) {
     state.export_form.open = false;
     state.help_open = false;
+  } else if (state.can_cancel) {
+    state.cancel = true;
   } else if (state.pinned) {
     state.pinned.reset();
   } else if (state.layout == LabLayout::large) {
@@ -83,8 +91,8 @@ constexpr std::array table{
     KeyRow{'f', false, "F", "fit the picture into its slot", [](LabState& s) { s.pan_zoom = {}; },
            nullptr},
     KeyRow{'e', false, "E, Shift+E", "exposure up, down by half a stop",
-           [](LabState& s) { s.view.exposure += 0.5f; }, nullptr},
-    KeyRow{'e', true, "", "", [](LabState& s) { s.view.exposure -= 0.5f; }, nullptr},
+           [](LabState& s) { change_exposure(s, 0.5f); }, nullptr},
+    KeyRow{'e', true, "", "", [](LabState& s) { change_exposure(s, -0.5f); }, nullptr},
     KeyRow{'n', false, "N", "normalise: exposure that shows nearly all of the image",
            [](LabState& s) { s.normalize = true; }, nullptr},
     KeyRow{'r', false, "R", "reset exposure, tone map and zoom",
@@ -116,8 +124,9 @@ constexpr std::array table{
            [](LabState& s) { s.export_form.open = true; }, nullptr},
     KeyRow{'h', false, "H, ?", "these keys", [](LabState& s) { s.help_open = !s.help_open; },
            nullptr},
-    KeyRow{'?', true, "", "", [](LabState& s) { s.help_open = !s.help_open; }, nullptr},
-    KeyRow{key_escape, false, "Esc", "close what is open; let go of the pixel", close, nullptr},
+    KeyRow{'?', false, "", "", [](LabState& s) { s.help_open = !s.help_open; }, nullptr},
+    KeyRow{key_escape, false, "Esc",
+           "close what is open, end what is loaded or saved; let go of the pixel", close, nullptr},
     KeyRow{'q', false, "Q", "quit", [](LabState& s) { s.quit = true; }, nullptr},
 };
 
@@ -141,6 +150,25 @@ std::span<const KeyRow> key_table() {
 
 std::span<const MouseRow> mouse_table() {
   return mice;
+}
+
+KeyEvent key_event(char32_t character, int place, bool shift) {
+  const auto is_letter = [](char32_t c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  };
+  const auto is_key = [](const KeyRow& row, char32_t c) { return char32_t(row.key) == c; };
+  if (is_letter(character)) {
+    return {int(character | 0x20u), true, shift, false};
+  }
+  if (std::ranges::any_of(table, [&](const KeyRow& row) { return is_key(row, character); })) {
+    return {int(character), true, false, false};
+  }
+  constexpr char32_t first_beyond_latin = 0x370;
+  const bool in_digit_row = place >= '0' && place <= '9';
+  if (character >= first_beyond_latin || in_digit_row) {
+    return {place, true, shift, false};
+  }
+  return {0, true, shift, false};
 }
 
 bool handle_key(LabState& state, const KeyEvent& event) {

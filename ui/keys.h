@@ -29,6 +29,16 @@ struct KeyEvent {
   bool ctrl = false;
 };
 
+/// What a key means that gives this character on the user's keyboard, and that is at this place.
+/// `place` is the character that stands there on a US keyboard without Shift, or 0.
+///
+/// A key means the character that it gives: a German Z is a Z, and a French dot, which needs Shift,
+/// a dot. Letters are the same with and without Shift; other characters have it in them. What gives
+/// no character that stands on any Latin keyboard (a Russian letter) means what is at its place on
+/// a US keyboard, and so does the row of digits where it gives digits only with Shift, as in
+/// France.
+KeyEvent key_event(char32_t character, int place, bool shift);
+
 /// One row of the table of keys: what the window obeys and what its help shows.
 struct KeyRow {
   int key;

@@ -19,6 +19,9 @@ namespace quartet {
 
 inline constexpr std::size_t lane_count = 4;
 
+/// In stops, up or down: beyond it a float may leave its range.
+inline constexpr float largest_exposure = 100.0f;
+
 enum class LabLayout { columns, grid, large };
 
 /// What one picture slot of a lane shows.
@@ -111,6 +114,8 @@ struct LabState {
   ReferenceForm reference_form;
   EqualiseForm equalise_form;
   ExportForm export_form;
+  bool can_cancel = false;  ///< something is being loaded or saved
+  bool cancel = false;      ///< it shall end, at the next frame
   bool quit = false;
 
   const TraceScene* trace_scene() const { return request.scene.get(); }

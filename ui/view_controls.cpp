@@ -23,7 +23,8 @@ void draw_exposure(LabFrame& frame, float width) {
   slider(frame.ui, "exposure", exposure, {-8.0f, 8.0f}, width, palette::text);
   tooltip(frame.ui, "In stops  (E, Shift+E; N sets it to the picture)");
   ImGui::SameLine(0.0f, 0.0f);
-  number_field(frame.ui, "exposure.number", exposure, -100.0f, 100.0f, "%+.1f EV", field);
+  number_field(frame.ui, "exposure.number", exposure, -largest_exposure, largest_exposure,
+               "%+.1f EV", field);
 }
 
 void draw_tone_map(LabFrame& frame, float width) {
