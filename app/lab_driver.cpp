@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
-#include "app/lab_export.h"
+#include "app/home_folder.h"
+#include "renderer/adaptive/memory_need.h"
 #include "ui/read_out.h"
 
 namespace quartet {
@@ -22,11 +24,25 @@ LabDriver::LabDriver(LabState state, const GlFunctions& gl, std::function<void()
       reference_(references_.latest()),
       evaluations_(evaluation_work(), wake),
       rejected_samples_(rejected_work(), wake),
-      equaliser_(equalise_work(), wake) {
+      equaliser_(equalise_work(), wake),
+      exports_(export_work(), wake) {
+}
+
+LabDriver::~LabDriver() {
+  session_.close();
+  loader_.close();
+  references_.close();
+  evaluations_.close();
+  rejected_samples_.close();
+  equaliser_.close();
+  exports_.close();
 }
 
 void LabDriver::drop(const std::filesystem::path& file) {
-  if (file.extension() == ".exr") {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  if (extension == ".exr") {
     load_reference(file);
   } else {
     load(file.string());
@@ -51,32 +67,56 @@ void LabDriver::begin_frame(ImguiScreen& screen, float natural_scale) {
 }
 
 bool LabDriver::draw(double seconds) {
-  if (const auto loaded = loader_.poll()) {
-    if (loaded->scene) {
-      window_.scene_loaded(loaded->scene, loaded->asked);
-    } else {
-      window_.scene_failed(loaded->error);
-    }
-  }
+  take_scene();
+  take_export();
   keep_reference_current();
   snapshot_ = session_.latest();
   const bool answered = reference_->input == reference_request_;
   const bool pending =
       !answered || reference_->output.activity == ReferenceStatus::Activity::loading;
   const LabOrders orders =
-      window_.draw({snapshot_, session_.status(), loader_.busy(),
+      window_.draw({snapshot_, session_.status(), loader_.busy(), export_request_ != 0,
                     answered ? reference_->output : ReferenceStatus(), pending,
                     evaluations_.latest()->output, keep_equalising(), rejected(), seconds});
+  obey(orders);
+  const bool resized = keep_size_within_memory();
+  submit();
+  evaluate();
+  look_for_rejected();
+  return orders.animate || orders.load_scene || orders.save || orders.cancel || resized;
+}
+
+/// A scene that was loaded, if its pictures fit the memory.
+void LabDriver::take_scene() {
+  const auto loaded = loader_.poll();
+  if (!loaded) {
+    return;
+  }
+  if (!loaded->scene) {
+    window_.scene_failed(loaded->error);
+    return;
+  }
+  const Scene& scene = loaded->scene->scene();
+  const std::string refusal = memory_refusal(scene.width, scene.height, lane_count);
+  if (refusal.empty()) {
+    window_.scene_loaded(loaded->scene, loaded->asked);
+  } else {
+    window_.scene_failed(fmt::format("{}: its film of {}", loaded->asked, refusal));
+  }
+}
+
+void LabDriver::obey(const LabOrders& orders) {
+  if (orders.cancel) {
+    cancel();
+  }
   if (orders.load_scene) {
-    loader_.load(*orders.load_scene);
+    load_typed(*orders.load_scene);
   }
   if (orders.save && snapshot_) {
     save(*orders.save);
   }
-  const LabRequest& wanted = window_.state().request;
   if (orders.reference) {
-    ask_for_reference(
-        {wanted.scene, wanted.settings, orders.reference->file, orders.reference->spp});
+    load_typed_reference(*orders.reference);
   }
   if (orders.equalise) {
     equalise(*orders.equalise);
@@ -84,6 +124,63 @@ bool LabDriver::draw(double seconds) {
     equaliser_.submit({});
     equalise_request_ = 0;
   }
+}
+
+void LabDriver::load_typed(const std::string& scene) {
+  try {
+    loader_.load(typed_path(scene).string());
+  } catch (const std::exception& error) {
+    window_.scene_failed(error.what());
+  }
+}
+
+void LabDriver::load_typed_reference(const ReferenceOrder& order) {
+  const LabRequest& wanted = window_.state().request;
+  try {
+    ask_for_reference({wanted.scene, wanted.settings, typed_path(order.file.string()), order.spp});
+  } catch (const std::exception& error) {
+    window_.say(Message::Kind::error, error.what());
+  }
+}
+
+/// What is being loaded or saved.
+void LabDriver::cancel() {
+  if (loader_.busy()) {
+    loader_.cancel();
+    window_.scene_failed("");
+  }
+  if (export_request_ != 0) {
+    exports_.submit(std::nullopt);
+    export_request_ = 0;
+  }
+  if (reference_->output.activity == ReferenceStatus::Activity::loading) {
+    const LabRequest& wanted = window_.state().request;
+    ask_for_reference({wanted.scene, wanted.settings, {}, 0});
+  }
+  window_.say(Message::Kind::notice, "cancelled");
+}
+
+/// A size that was typed or chosen and would not fit the memory gives way to the one before.
+/// Returns whether it did.
+bool LabDriver::keep_size_within_memory() {
+  RenderSettings& wanted = window_.state().request.settings;
+  const glm::ivec2 size(wanted.width, wanted.height);
+  if (size == fitting_size_) {
+    return false;
+  }
+  const std::string refusal = memory_refusal(size.x, size.y, lane_count);
+  if (refusal.empty() || fitting_size_ == glm::ivec2(0)) {
+    fitting_size_ = size;
+    return false;
+  }
+  wanted.width = fitting_size_.x;
+  wanted.height = fitting_size_.y;
+  window_.say(Message::Kind::error, refusal);
+  return true;
+}
+
+void LabDriver::submit() {
+  const LabRequest& wanted = window_.state().request;
   // Whoever looks at the truth waits until it is known whether there is one.
   const bool lacks_truth =
       !wanted.reference && std::ranges::any_of(wanted.policies, [](const SamplingPolicy& policy) {
@@ -93,9 +190,6 @@ bool LabDriver::draw(double seconds) {
     submitted_ = wanted;
     request_ = session_.submit(wanted);
   }
-  evaluate();
-  look_for_rejected();
-  return orders.animate || orders.load_scene || orders.save;
 }
 
 void LabDriver::ask_for_reference(ReferenceRequest request) {
@@ -202,9 +296,9 @@ std::optional<RejectedSample> LabDriver::rejected() const {
 }
 
 bool LabDriver::settled() const {
-  const bool lanes = !loader_.busy() && same_request(window_.state().request, submitted_) &&
-                     snapshot_ && snapshot_->request == request_ &&
-                     snapshot_->frame >= submitted_.frame;
+  const bool lanes = !loader_.busy() && export_request_ == 0 &&
+                     same_request(window_.state().request, submitted_) && snapshot_ &&
+                     snapshot_->request == request_ && snapshot_->frame >= submitted_.frame;
   if (!lanes || reference_request_ == 0) {
     return lanes;
   }
@@ -226,16 +320,27 @@ std::string LabDriver::error() const {
   return lanes.empty() ? said_error_ : lanes;
 }
 
+/// The newest export ends the one under way.
 void LabDriver::save(const ExportForm& form) {
-  try {
-    const std::shared_ptr<const Reference>& reference = reference_->output.reference;
-    const bool measured = reference && snapshot_->reference.get() == &reference->image;
-    const LabExport done = export_lab(*snapshot_, window_.state().view, form, window_.state().scene,
-                                      measured ? reference.get() : nullptr);
+  const std::shared_ptr<const Reference>& reference = reference_->output.reference;
+  const bool measured = reference && snapshot_->reference.get() == &reference->image;
+  export_request_ =
+      exports_.submit(ExportRequest{snapshot_, window_.state().view, form, window_.state().scene,
+                                    measured ? reference : nullptr});
+}
+
+void LabDriver::take_export() {
+  const auto latest = exports_.latest();
+  if (export_request_ == 0 || latest->input != export_request_) {
+    return;
+  }
+  export_request_ = 0;
+  const auto& [done, error] = latest->output;
+  if (error.empty()) {
     window_.say(Message::Kind::notice, fmt::format("saved into {}{}", done.folder.string(),
                                                    done.lacks.empty() ? "" : "; " + done.lacks));
-  } catch (const std::exception& error) {
-    window_.say(Message::Kind::error, error.what());
+  } else {
+    window_.say(Message::Kind::error, error);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/gl_textures.h"
 #include "app/imgui_screen.h"
+#include "app/lab_export.h"
 #include "app/scene_loader.h"
 #include "renderer/adaptive/session.h"
 #include "renderer/measure/equalise_task.h"
@@ -28,6 +29,10 @@ class LabDriver {
   /// References are cached in the folder `reference_cache`, or not at all if it is empty.
   LabDriver(LabState state, const GlFunctions& gl, std::function<void()> wake,
             const std::filesystem::path& reference_cache = {});
+  /// Asks all that is under way to end at the same time, and waits for it.
+  ~LabDriver();
+  LabDriver(const LabDriver&) = delete;
+  LabDriver& operator=(const LabDriver&) = delete;
 
   /// A file that was dropped: a reference if it is an EXR, else a scene.
   void drop(const std::filesystem::path& file);
@@ -60,7 +65,15 @@ class LabDriver {
   void look_for_rejected();
   void equalise(const EqualiseOrder& order);
   EqualiseProgress keep_equalising();
+  void take_scene();
+  void take_export();
+  void obey(const LabOrders& orders);
+  void load_typed(const std::string& scene);
+  void load_typed_reference(const ReferenceOrder& order);
   void save(const ExportForm& form);
+  void cancel();
+  bool keep_size_within_memory();
+  void submit();
 
   GlTextures textures_;
   LabWindow window_;
@@ -69,6 +82,7 @@ class LabDriver {
   std::shared_ptr<const Snapshot> snapshot_;
   LabRequest submitted_;
   std::uint64_t request_ = 0;
+  glm::ivec2 fitting_size_{0};  // of pictures, the last that was not too large
 
   ReferenceTask references_;
   ReferenceRequest asked_reference_;
@@ -86,6 +100,9 @@ class LabDriver {
   EqualiseTask equaliser_;
   EqualiseRequest equalised_;
   std::uint64_t equalise_request_ = 0;  // 0: nothing is under way
+
+  ExportTask exports_;
+  std::uint64_t export_request_ = 0;  // 0: nothing is under way
 };
 
 }  // namespace quartet

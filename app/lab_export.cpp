@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "app/home_folder.h"
 #include "app/lab_files.h"
 #include "app/lane_option.h"
 #include "app/shell_words.h"
+#include "renderer/cancel.h"
 #include "renderer/image/exr.h"
 #include "renderer/scene/synthetic.h"
 
@@ -24,17 +26,19 @@ std::string camera_text(const Camera& camera) {
 }
 
 /// Whether there was a file that holds just this reference.
-bool stage_reference(StagedFiles& files, const Reference* reference) {
+bool stage_reference(StagedFiles& files, const Reference* reference, const std::stop_token& stop) {
   if (reference == nullptr || reference->path.empty()) {
     return false;
   }
   try {
-    const ExrImage exr = read_exr(reference->path);
+    const ExrImage exr = read_exr(reference->path, stop);
     if (radiance_of(exr, reference->path) != reference->image) {
       return false;  // it has more samples by now, or is another
     }
     write_exr(files.stage(reference_file), exr);
     return true;
+  } catch (const Cancelled&) {
+    throw;
   } catch (const std::exception&) {
     return false;
   }
@@ -80,24 +84,47 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
 }
 
 LabExport export_lab(const Snapshot& snapshot, const ViewSettings& view, const ExportForm& form,
-                     const std::string& scene, const Reference* reference) {
+                     const std::string& scene, const Reference* reference,
+                     const std::stop_token& stop) {
   Snapshot chosen = snapshot;
   if (form.lane >= 0 && std::size_t(form.lane) < snapshot.lanes.size()) {
     chosen.lanes = {snapshot.lanes[std::size_t(form.lane)]};
   }
   const std::filesystem::path folder = form.folder;
   StagedFiles files(folder);
-  const bool named = stage_reference(files, reference);
+  const bool named = stage_reference(files, reference, stop);
   const std::string command = reproducing_command(
       chosen, view, scene, form.folder, named ? folder / reference_file : std::filesystem::path());
   LabExport done{std::filesystem::absolute(folder).lexically_normal(), ""};
   if (chosen.reference && !named) {
     done.lacks = "command.txt needs --reference: the reference that was used is in no file";
   }
-  write_lab_files(files, chosen, view, command, std::nullopt, reference);
+  write_lab_files(files, chosen, view, command, std::nullopt, reference, stop);
   files.write("command.txt", command + (done.lacks.empty() ? "\n" : "\n# " + done.lacks + "\n"));
+  check_cancelled(stop);
   files.commit();
   return done;
+}
+
+ExportTask::Work export_work() {
+  return [](const std::optional<ExportRequest>& request, const std::stop_token& stop,
+            const ExportTask::Publish& publish) {
+    if (!request) {
+      return;
+    }
+    ExportStatus status;
+    try {
+      ExportForm form = request->form;
+      form.folder = typed_path(form.folder).string();
+      status.done = export_lab(*request->snapshot, request->view, form, request->scene,
+                               request->reference.get(), stop);
+    } catch (const Cancelled&) {
+      return;
+    } catch (const std::exception& error) {
+      status.error = error.what();
+    }
+    publish(std::move(status));
+  };
 }
 
 }  // namespace quartet

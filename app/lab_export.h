@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <stop_token>
 #include <string>
 
 #include "renderer/adaptive/snapshot.h"
 #include "renderer/image/views.h"
+#include "renderer/measure/background_task.h"
 #include "renderer/measure/reference.h"
 #include "ui/lab_state.h"
 
@@ -24,8 +28,29 @@ struct LabExport {
 
 /// Saves what `quartet figure` would, of all lanes or of one, and the command line that does so as
 /// command.txt. `reference` is that of the snapshot, null if none is known. A copy of its file goes
-/// along: the file itself may get more samples. Throws std::runtime_error.
+/// along: the file itself may get more samples. Throws std::runtime_error, or Cancelled once `stop`
+/// is asked for: then nothing was written.
 LabExport export_lab(const Snapshot& snapshot, const ViewSettings& view, const ExportForm& form,
-                     const std::string& scene, const Reference* reference);
+                     const std::string& scene, const Reference* reference,
+                     const std::stop_token& stop = {});
+
+/// What to save, as export_lab takes it. The folder is one as it is typed: "~/figs".
+struct ExportRequest {
+  std::shared_ptr<const Snapshot> snapshot;
+  ViewSettings view;
+  ExportForm form;
+  std::string scene;
+  std::shared_ptr<const Reference> reference;
+};
+
+struct ExportStatus {
+  LabExport done;
+  std::string error;  ///< one line; empty if all is well
+};
+
+/// Exports beside the window: a large picture takes seconds. An empty request ends the one under
+/// way.
+using ExportTask = BackgroundTask<std::optional<ExportRequest>, ExportStatus>;
+ExportTask::Work export_work();
 
 }  // namespace quartet

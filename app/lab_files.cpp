@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "renderer/cancel.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/png.h"
 #include "renderer/version.h"
@@ -51,24 +52,29 @@ std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies
 
 void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
                      const std::string& command_line, const std::optional<RunCost>& cost,
-                     const Reference* reference) {
+                     const Reference* reference, const std::stop_token& stop) {
   const std::string title = fmt::format("{}, {} frames at {}×{}", snapshot.scene->scene().name,
                                         frames_text(snapshot), snapshot.width, snapshot.height);
   const std::string footer = fmt::format("quartet {} · {}", version(), command_line);
   const Figure images = image_figure(snapshot, view, title, footer);
   write_figure_png(images, files.stage("images.png"));
+  check_cancelled(stop);
   write_figure_pdf(images, files.stage("images.pdf"));
+  check_cancelled(stop);
   const Figure heatmaps = heat_figure(snapshot, view, title, footer);
   write_figure_png(heatmaps, files.stage("heatmaps.png"));
+  check_cancelled(stop);
   write_figure_pdf(heatmaps, files.stage("heatmaps.pdf"));
   std::vector<SamplingPolicy> policies;
   std::ranges::transform(snapshot.lanes, std::back_inserter(policies), &LaneSnapshot::policy);
   const std::vector<std::string> names = lane_names(policies);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    check_cancelled(stop);
     const std::string& name = names[i];
     ExrImage exr = lane_exr(snapshot, i);
     exr.attributes = exr_attributes(command_line, snapshot, i, files.run());
     write_exr(files.stage(name + ".exr"), exr);
+    check_cancelled(stop);
     write_png(files.stage(name + ".png"), draw_view(snapshot, i, ViewKind::image, view).image);
     write_png(files.stage(name + "-heatmap.png"),
               draw_view(snapshot, i, ViewKind::heatmap, view).image);

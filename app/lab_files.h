@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies
 /// Everything that is saved of lanes at a frame, by the command line and by the window: the two
 /// figures (images and heatmaps, PNG and PDF), each lane's EXR, PNG and heatmap, panels.csv and
 /// panels.json. EXR and JSON hold files.run(). `reference` says where that of the snapshot comes
-/// from, if that is known.
+/// from, if that is known. Throws Cancelled between two files once `stop` is asked for.
 void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
                      const std::string& command_line, const std::optional<RunCost>& cost,
-                     const Reference* reference = nullptr);
+                     const Reference* reference = nullptr, const std::stop_token& stop = {});
 
 }  // namespace quartet

@@ -47,6 +47,7 @@ struct LabOrders {
   std::optional<ReferenceOrder> reference;
   std::optional<EqualiseOrder> equalise;
   bool stop_equalising = false;
+  bool cancel = false;   ///< what is being loaded or saved
   bool animate = false;  ///< time passes: draw again soon, even without input
 };
 
@@ -66,6 +67,7 @@ struct LabFrame {
   const Snapshot* snapshot;  ///< null before the first one
   const SessionStatus& status;
   bool loading;  ///< a scene is being loaded
+  bool saving;   ///< an export is being written
   const ReferenceStatus& reference;
   const Evaluation& evaluation;
   const EqualiseProgress& equalising;

@@ -97,6 +97,11 @@ void LabWindow::scene_loaded(std::shared_ptr<const TraceScene> scene, const std:
   }
 }
 
+void LabWindow::scene_failed(const std::string& reason) {
+  state_.failure_asked = nullptr;
+  say(Message::Kind::error, reason);
+}
+
 /// The exposure at which all but one pixel in a hundred of the chosen lane stay below white.
 void LabWindow::normalize_exposure() {
   state_.normalize = false;
@@ -114,7 +119,7 @@ void LabWindow::normalize_exposure() {
   const auto place = largest.begin() + std::ptrdiff_t(largest.size() - 1 - largest.size() / 100);
   std::ranges::nth_element(largest, place);
   if (*place > 0.0f) {
-    state_.view.exposure = -std::log2(*place);
+    state_.view.exposure = std::clamp(-std::log2(*place), -largest_exposure, largest_exposure);
   }
 }
 
@@ -173,6 +178,9 @@ LabOrders LabWindow::draw(const LabInput& input) {
   // It lives as long as the whole of which it is a part.
   state_.request.reference = {reference, reference ? &reference->image : nullptr};
   LabOrders orders;
+  state_.can_cancel = input.loading || input.saving ||
+                      input.reference.activity == ReferenceStatus::Activity::loading;
+  orders.cancel = std::exchange(state_.cancel, false);
   ui_.widgets.clear();
   ui_.held.clear();
   if (state_.normalize) {
@@ -198,6 +206,7 @@ LabOrders LabWindow::draw(const LabInput& input) {
                  snapshot_.get(),
                  input.status,
                  input.loading,
+                 input.saving,
                  input.reference,
                  input.evaluation,
                  input.equalising,

@@ -14,6 +14,7 @@ struct LabInput {
   std::shared_ptr<const Snapshot> snapshot;  ///< null before the first one
   SessionStatus status;
   bool loading = false;            ///< a scene is being loaded
+  bool saving = false;             ///< an export is being written
   ReferenceStatus reference;       ///< of what is asked for now
   bool reference_pending = false;  ///< whether there is one will be known soon
   Evaluation evaluation;           ///< the newest; of any snapshot, also an older one
@@ -41,7 +42,7 @@ class LabWindow {
 
   void scene_loaded(std::shared_ptr<const TraceScene> scene, const std::string& asked);
   /// The old scene stays.
-  void scene_failed(const std::string& reason) { say(Message::Kind::error, reason); }
+  void scene_failed(const std::string& reason);
   void say(Message::Kind kind, std::string text) { message_ = {kind, std::move(text)}; }
 
   LabState& state() { return state_; }

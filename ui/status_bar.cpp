@@ -38,10 +38,26 @@ std::string activity_text(const SessionStatus& status) {
   return status.frame > 0 ? fmt::format("all lanes at frame {}", status.frame) : "idle";
 }
 
+/// Ends what is being loaded or saved; at `right`. Returns its width.
+float draw_cancel(LabFrame& frame, const ScreenRect& box, float right) {
+  const Ui& ui = frame.ui;
+  const std::string text = "cancel  ×";
+  const float width = text_width(ui.small, text);
+  ImGui::SetCursorScreenPos({right - width, box.y});
+  if (invisible_button("cancel", {width, box.height})) {
+    frame.orders.cancel = true;
+  }
+  frame.ui.mark("cancel");
+  tooltip(ui, "Ends what is being loaded or saved  (Esc)");
+  text_at(ui.small, right - width, box.y + 0.5f * (box.height - font_size(ui.small)),
+          ImGui::IsItemHovered() ? palette::text : palette::dim, text);
+  return width;
+}
+
 }  // namespace
 
-std::string status_text(const SessionStatus& status, bool loading) {
-  std::string text = loading ? "loading the scene" : activity_text(status);
+std::string status_text(const SessionStatus& status, bool loading, bool saving) {
+  std::string text = loading ? "loading the scene" : saving ? "saving" : activity_text(status);
   if (status.stored_samples > 0) {
     text += fmt::format(" · {} samples stored, {} of {}", count_text(double(status.stored_samples)),
                         bytes_text(double(status.stored_bytes)),
@@ -68,18 +84,19 @@ void draw_status_bar(LabFrame& frame, const ScreenRect& box) {
                                             palette::gap);
   const std::string hint = "H shows all keys";
   text_left_of(ui.small, box.right() - pad, y, palette::faint, hint);
-  const float room = box.width - 3 * pad - text_width(ui.small, hint);
+  float room = box.width - 3 * pad - text_width(ui.small, hint);
+  if (frame.state.can_cancel) {
+    room -= draw_cancel(frame, box, box.x + pad + room) + pad;
+  }
 
   Message message = frame.message;
   if (!frame.status.error.empty()) {
     message = {Message::Kind::error, frame.status.error};
   }
   if (message.kind == Message::Kind::none) {
-    const std::string text = status_text(frame.status, frame.loading);
+    const std::string text = status_text(frame.status, frame.loading, frame.saving);
     text_at(ui.small, box.x + pad, y, palette::dim,
-            fitting_text(ui.small,
-                         {text, frame.loading ? "loading the scene" : activity_text(frame.status)},
-                         room));
+            fitting_text(ui.small, {text, text.substr(0, text.find(" · "))}, room));
     ui.mark("status", box);
     return;
   }
@@ -92,11 +109,11 @@ void draw_status_bar(LabFrame& frame, const ScreenRect& box) {
   while (text_width(ui.small, shown) > room && text.size() > 8) {
     do {
       text.pop_back();
-    } while ((static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u);
+    } while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u);
     shown = text + more;
   }
   ImGui::SetCursorScreenPos({box.x + pad, box.y});
-  if (ImGui::InvisibleButton("message", {text_width(ui.small, shown), box.height})) {
+  if (invisible_button("message", {text_width(ui.small, shown), box.height})) {
     frame.message = {};
   }
   ui.mark("message");

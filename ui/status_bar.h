@@ -9,6 +9,6 @@ float status_bar_height(const Ui& ui);
 void draw_status_bar(LabFrame& frame, const ScreenRect& box);
 
 /// "tracing frame 7 of 15 · 2.6 M samples/s · ..."
-std::string status_text(const SessionStatus& status, bool loading);
+std::string status_text(const SessionStatus& status, bool loading, bool saving);
 
 }  // namespace quartet

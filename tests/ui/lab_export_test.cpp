@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "renderer/cancel.h"
 #include "renderer/image/exr.h"
 #include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
@@ -20,6 +21,7 @@ void save(LabHand& hand, const std::filesystem::path& folder) {
   hand.key('s');
   hand.frames(3);
   hand.click("export.save");
+  hand.settle();
   ASSERT_EQ(hand.window().message().kind, Message::Kind::notice) << hand.window().message().text;
 }
 
@@ -56,6 +58,7 @@ TEST(LabWindowExport, SaysWhereAndHowToRepeatIt) {
   hand.key('s');
   hand.frames(3);
   hand.click("export.save");
+  hand.settle();
   ASSERT_EQ(hand.window().message().kind, Message::Kind::notice) << hand.window().message().text;
   for (const char* name : {"images.png", "images.pdf", "heatmaps.png", "kl.exr", "command.txt"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
@@ -103,6 +106,29 @@ TEST(LabWindowExport, SaysThatAReferenceIsInNoFile) {
   EXPECT_EQ(command.find(" --reference"), command.rfind(" --reference"));
   EXPECT_NE(command.find("\n# command.txt needs --reference"), std::string::npos) << command;
   EXPECT_FALSE(std::filesystem::exists(folder / "out" / "reference.exr"));
+}
+
+TEST(LabWindowExport, GoesWhereATildeSays) {
+  const TempFolder folder;
+  const std::string before = std::getenv("HOME") ? std::getenv("HOME") : "";
+  setenv("HOME", folder.path().c_str(), 1);
+  LabHand hand;
+  save(hand, "~/figs");
+  setenv("HOME", before.c_str(), 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "figs/command.txt"));
+  EXPECT_FALSE(std::filesystem::exists("~"));
+}
+
+TEST(LabWindowExport, ThatIsCancelledLeavesNothing) {
+  const TempFolder folder;
+  LabHand hand;
+  ExportForm form;
+  form.folder = (folder / "out").string();
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(export_lab(hand.snapshot(), {}, form, "cornell-checker", nullptr, stop.get_token()),
+               Cancelled);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 }  // namespace

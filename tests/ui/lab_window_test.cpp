@@ -3,12 +3,14 @@
 #include "ui/lab_window.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 
+#include "renderer/adaptive/memory_need.h"
 #include "renderer/scene/synthetic.h"
 #include "tests/image/temp_folder.h"
 #include "tests/ui/lab_hand.h"
@@ -244,6 +246,126 @@ TEST(LabWindow, ABrokenSceneIsNamedAndTheOldOneStays) {
   EXPECT_EQ(hand.snapshot().frame, 5u);
   hand.click("message");
   EXPECT_EQ(hand.window().message().kind, Message::Kind::none);
+}
+
+/// Frames until there is a message.
+void wait_for_message(LabHand& hand) {
+  for (int i = 0; i < 20'000 && hand.window().message().kind == Message::Kind::none; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    hand.frame();
+  }
+}
+
+TEST(LabWindow, AFilmThatDoesNotFitTheMemoryIsRefusedAndTheOldSceneStays) {
+  const TempFolder folder;
+  std::ofstream(folder / "huge.xml") << R"(<scene version="3.0.0"><sensor type="perspective">
+    <film type="hdrfilm"><integer name="width" value="16000"/>
+      <integer name="height" value="16000"/></film></sensor>
+    <shape type="sphere"/><emitter type="constant"/></scene>)";
+  if (memory_refusal(16000, 16000, lane_count).empty()) {
+    GTEST_SKIP() << "this machine has more memory than any picture needs";
+  }
+  LabHand hand;
+  const auto scene = hand.state().request.scene;
+  hand.driver().drop(folder / "huge.xml");
+  wait_for_message(hand);
+  const Message said = hand.window().message();
+  EXPECT_EQ(said.kind, Message::Kind::error);
+  EXPECT_NE(said.text.find("16000x16000 would take about"), std::string::npos) << said.text;
+  EXPECT_NE(said.text.find("huge.xml"), std::string::npos) << said.text;
+  EXPECT_EQ(hand.state().request.scene, scene);
+  EXPECT_EQ(hand.state().request.settings.width, 96);
+}
+
+TEST(LabWindow, ASizeThatDoesNotFitTheMemoryGivesWayToTheOneBefore) {
+  LabHand hand;
+  hand.state().request.settings.width = 1 << 20;
+  hand.state().request.settings.height = 1 << 16;
+  hand.settle();
+  EXPECT_EQ(hand.state().request.settings.width, 96);
+  EXPECT_EQ(hand.state().request.settings.height, 54);
+  EXPECT_EQ(hand.window().message().kind, Message::Kind::error);
+  EXPECT_NE(hand.window().message().text.find("1048576x65536"), std::string::npos)
+      << hand.window().message().text;
+  EXPECT_EQ(hand.snapshot().frame, 5u);
+}
+
+TEST(LabWindow, WhatIsNoFileIsNamedWhenItIsDropped) {
+  const TempFolder folder;
+  LabHand hand;
+  for (const char* name : {"pipe.xml", "pipe.EXR"}) {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+    hand.driver().drop(folder / name);
+    wait_for_message(hand);
+    EXPECT_EQ(hand.window().message().kind, Message::Kind::error);
+    EXPECT_NE(hand.window().message().text.find(name), std::string::npos)
+        << hand.window().message().text;
+    hand.click("message");
+  }
+  hand.driver().drop("/dev/zero");
+  wait_for_message(hand);
+  EXPECT_NE(hand.window().message().text.find("/dev/zero"), std::string::npos)
+      << hand.window().message().text;
+}
+
+TEST(LabWindow, EscapeEndsWhatIsBeingLoadedAndNothingElse) {
+  LabHand hand;
+  hand.state().layout = LabLayout::large;
+  hand.state().pinned = glm::ivec2(3, 3);
+  hand.frames(2);
+  EXPECT_FALSE(hand.has("cancel"));
+  hand.state().can_cancel = true;  // as while a scene is loaded
+  hand.window().key({key_escape, true, false, false});
+  EXPECT_TRUE(hand.state().cancel);
+  EXPECT_TRUE(hand.state().pinned);
+  hand.frames(2);
+  EXPECT_FALSE(hand.state().cancel);
+  EXPECT_EQ(hand.window().message().text, "cancelled");
+  hand.key(key_escape);
+  EXPECT_FALSE(hand.state().pinned);
+}
+
+TEST(LabWindow, QuitsByItsKey) {
+  LabHand hand;
+  EXPECT_FALSE(hand.state().quit);
+  hand.key('q');
+  EXPECT_TRUE(hand.state().quit);
+}
+
+TEST(LabWindow, ExposureStaysWithinWhatAFloatHolds) {
+  LabHand hand;
+  for (const bool shift : {false, true}) {
+    for (int i = 0; i < 1000; ++i) {
+      hand.window().key({'e', true, shift, false});
+    }
+    hand.frame();
+    EXPECT_EQ(hand.state().view.exposure, shift ? -largest_exposure : largest_exposure);
+  }
+}
+
+TEST(LabWindow, IsDrawnAtAnySize) {
+  LabHand hand;
+  hand.key('d');
+  for (const LabLayout layout : {LabLayout::columns, LabLayout::grid, LabLayout::large}) {
+    hand.state().layout = layout;
+    hand.state().comparison.wipe = !hand.state().comparison.wipe;
+    for (const auto& [width, height] : {std::pair(1, 1),
+                                        {20, 1100},
+                                        {1100, 20},
+                                        {1, 700},
+                                        {900, 1},
+                                        {50, 50},
+                                        {200, 150},
+                                        {640, 480}}) {
+      SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+      ImGui::GetIO().DisplaySize = {float(width), float(height)};
+      hand.move(0.5f * float(width), 0.5f * float(height));
+      hand.wheel(0.5f * float(width), 0.5f * float(height), 1.0f);
+      const glm::vec2 center = hand.state().pan_zoom.center;
+      EXPECT_TRUE(center.x >= 0.0f && center.x <= 1.0f && center.y >= 0.0f && center.y <= 1.0f);
+    }
+  }
 }
 
 TEST(LabWindow, AFailureCaseComesWithItsViewAndSaysWhatToLookAt) {
