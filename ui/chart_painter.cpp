@@ -81,8 +81,9 @@ void draw_ticks(const Ui& ui, const Mapping& map, const ScreenRect& box) {
     if (y < area.bottom() - 1 && y > area.y + 1) {
       list.AddLine({area.x, y}, {area.right(), y}, IM_COL32(255, 255, 255, 14));
     }
+    const float highest = area.y - ui.px(2.0f);
     const float top =
-        std::clamp(y - 0.5f * line, area.y - ui.px(2.0f), area.bottom() - line + ui.px(4.0f));
+        std::clamp(y - 0.5f * line, highest, std::max(highest, area.bottom() - line + ui.px(4.0f)));
     if (top + line <= above) {
       text_left_of(ui.small, area.x - ui.px(4.0f), top, palette::dim, tick.label);
       above = top;
@@ -95,11 +96,15 @@ void draw_dashes(const Ui& ui, const std::vector<ImVec2>& points, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float period = ui.px(8.0f);
   const float dash = ui.px(5.0f);
-  float phase = 0.0f;  // since a dash began
+  constexpr float longest = 1e5f;  // one end lies nowhere on a logarithmic axis
+  float phase = 0.0f;              // since a dash began
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const ImVec2 a = points[i];
     const ImVec2 b = points[i + 1];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length < longest)) {
+      continue;
+    }
     const auto at = [&](float share) {
       return ImVec2(a.x + (b.x - a.x) * share / length, a.y + (b.y - a.y) * share / length);
     };
@@ -247,7 +252,7 @@ std::optional<MarkerDrag> paint_chart(Ui& ui, const std::string& name, const Cha
     return std::nullopt;
   }
   ImGui::SetCursorScreenPos({area.x, area.y});
-  ImGui::InvisibleButton(name.c_str(), {area.width, area.height});
+  invisible_button(name, {area.width, area.height});
   ui.mark(name);
 
   constexpr int none = -1;

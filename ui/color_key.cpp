@@ -120,7 +120,7 @@ void draw_color_key(LabFrame& frame, const PictureSlot& slot, const ScreenRect& 
   draw_gradient(strip, bar.scale.color_map);
   draw_bar_ticks(ui, strip, bar.scale, box.right());
   ImGui::SetCursorScreenPos({strip.x, strip.y});
-  ImGui::InvisibleButton(fmt::format("key{}", slot.slot).c_str(), {box.width, strip.height});
+  invisible_button(fmt::format("key{}", slot.slot), {box.width, strip.height});
   frame.ui.mark(fmt::format("lane{}.slot{}.key", slot.lane, slot.slot));
   tooltip(ui, bar.cap_label.empty() ? bar.label : bar.label + "\nmagenta: " + bar.cap_label);
 }

@@ -111,7 +111,7 @@ void edit_height(LabFrame& frame, const ScreenRect& area, const ScreenRect& box)
   Ui& ui = frame.ui;
   const float half = ui.px(4.0f);
   ImGui::SetCursorScreenPos({box.x, box.y - half});
-  ImGui::InvisibleButton("dock.edge", {box.width, 2 * half});
+  invisible_button("dock.edge", {box.width, 2 * half});
   ui.mark("dock.edge");
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
@@ -119,7 +119,8 @@ void edit_height(LabFrame& frame, const ScreenRect& area, const ScreenRect& box)
                                         ui.px(1.5f));
   }
   if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.y != 0.0f) {
-    frame.state.dock.height = (area.bottom() - ImGui::GetIO().MousePos.y) / ui.scale;
+    frame.state.dock.height =
+        std::max(least_height, (area.bottom() - ImGui::GetIO().MousePos.y) / ui.scale);
   }
 }
 

@@ -26,7 +26,10 @@ void fill(EqualiseForm& form, const Snapshot& snapshot) {
 bool edit_budget(Ui& ui, const std::string& name, float& value, const std::string& unit,
                  const char* format) {
   ImGui::SetNextItemWidth(ui.px(90.0f));
-  ImGui::InputFloat(("##" + name).c_str(), &value, 0.0f, 0.0f, format);
+  if (ImGui::InputFloat(("##" + name).c_str(), &value, 0.0f, 0.0f, format)) {
+    constexpr float largest = 1e9f;
+    value = std::clamp(value, 0.0f, largest);
+  }
   ui.mark(name + ".value");
   ImGui::SameLine();
   ImGui::TextUnformatted(unit.c_str());

@@ -44,6 +44,16 @@ inline void add_enter_key(bool down) {
 #endif
 }
 
+inline void add_ctrl_key(bool down) {
+#if IMGUI_VERSION_NUM >= 18900
+  ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, down);
+#elif IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddKeyEvent(ImGuiKey_ModCtrl, down);
+#else
+  ImGui::GetIO().KeyCtrl = down;
+#endif
+}
+
 inline float font_size(const ImFont* font) {
 #if IMGUI_VERSION_NUM >= 19200
   return font->LegacySize;

@@ -264,7 +264,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
   const float width = text_width(frame.ui.small, text);
   const float x = right_aligned ? box.right() - width : box.x;
   ImGui::SetCursorScreenPos({x, box.y});
-  ImGui::InvisibleButton(lane_name(lane, "numbers").c_str(), {width, font_size(frame.ui.small)});
+  invisible_button(lane_name(lane, "numbers"), {width, font_size(frame.ui.small)});
   frame.ui.mark(lane_name(lane, "numbers"));
   const std::string pilot =
       last.pilot_samples == 0

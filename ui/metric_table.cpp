@@ -183,7 +183,7 @@ void draw_metric_table(LabFrame& frame, const ScreenRect& box) {
                        {box.x + ui.px(3.0f), top + line_height - ui.px(4.0f)}, lines[i].color);
     text_at(ui.small, box.x + ui.px(9.0f), text_y(i + 1), palette::text, lines[i].name);
     ImGui::SetCursorScreenPos({box.x, top});
-    ImGui::InvisibleButton(fmt::format("table.row{}", i).c_str(), {box.width, line_height});
+    invisible_button(fmt::format("table.row{}", i), {box.width, line_height});
     ui.mark(fmt::format("table.row{}", i));
     tooltip(ui, all_metrics_text(frame, lines[i]));
   }
@@ -200,7 +200,7 @@ void draw_metric_table(LabFrame& frame, const ScreenRect& box) {
   for (const Column& column : columns) {
     right += column.width + spare / float(columns.size());
     ImGui::SetCursorScreenPos({right - column.width, box.y});
-    ImGui::InvisibleButton(column.title.c_str(), {column.width, line_height});
+    invisible_button(column.title, {column.width, line_height});
     ui.mark("table." + column.title);
     tooltip(ui, column.tip);
     text_left_of(ui.small, right, text_y(0), palette::dim, column.title);

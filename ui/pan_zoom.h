@@ -23,12 +23,13 @@ struct PicturePlace {
   float scale = 1;     ///< screen pixels for one of the picture
 
   std::optional<glm::ivec2> pixel_at(float sx, float sy, int width, int height) const {
-    const int px = int(std::floor((sx - x) / scale));
-    const int py = int(std::floor((sy - y) / scale));
-    if (px < 0 || py < 0 || px >= width || py >= height) {
+    const float px = std::floor((sx - x) / scale);
+    const float py = std::floor((sy - y) / scale);
+    // Also of a slot without room, where they are no numbers.
+    if (!(px >= 0.0f && py >= 0.0f && px < float(width) && py < float(height))) {
       return std::nullopt;
     }
-    return glm::ivec2(px, py);
+    return glm::ivec2(int(px), int(py));
   }
 };
 
@@ -46,9 +47,13 @@ inline PicturePlace place_picture(const PanZoom& view, const ScreenRect& slot, i
 inline PanZoom zoomed_at(const PanZoom& view, const ScreenRect& slot, int width, int height,
                          float sx, float sy, float factor) {
   const PicturePlace before = place_picture(view, slot, width, height);
+  if (!(before.scale > 0.0f)) {
+    return view;  // a slot without room
+  }
   PanZoom result = view;
   // Until about four pixels fill a slot.
-  result.zoom = std::clamp(view.zoom * factor, 0.25f, float(std::max(width, height)) / 4.0f);
+  const float largest = std::max(1.0f, float(std::max(width, height)) / 4.0f);
+  result.zoom = std::clamp(view.zoom * factor, 0.25f, largest);
   const float scale = before.scale * result.zoom / view.zoom;
   const glm::vec2 at((sx - before.x) / before.scale, (sy - before.y) / before.scale);
   const glm::vec2 size{float(width), float(height)};
@@ -62,6 +67,9 @@ inline PanZoom zoomed_at(const PanZoom& view, const ScreenRect& slot, int width,
 inline PanZoom panned(const PanZoom& view, const ScreenRect& slot, int width, int height, float dx,
                       float dy) {
   const float scale = place_picture(view, slot, width, height).scale;
+  if (!(scale > 0.0f)) {
+    return view;  // a slot without room
+  }
   PanZoom result = view;
   result.center -= glm::vec2(dx / (scale * float(width)), dy / (scale * float(height)));
   result.center = glm::clamp(result.center, glm::vec2(0.0f), glm::vec2(1.0f));

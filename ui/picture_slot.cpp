@@ -152,9 +152,8 @@ void draw_numbers(LabFrame& frame, const PictureSlot& slot, const PicturePlace& 
 void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int height) {
   LabState& state = frame.state;
   ImGui::SetCursorScreenPos({slot.box.x, slot.box.y});
-  ImGui::InvisibleButton(slot_name(slot).c_str(),
-                         {std::max(1.0f, slot.box.width), std::max(1.0f, slot.box.height)},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  invisible_button(slot_name(slot), {slot.box.width, slot.box.height},
+                   ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   frame.ui.mark(slot_name(slot));
   if (width == 0 || height == 0) {
     return;
@@ -297,10 +296,10 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
 void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b) {
   Comparison& comparison = frame.state.comparison;
   const float half = frame.ui.px(7.0f);
-  const float width = a.box.width;
+  const float width = std::max(1.0f, a.box.width);
   float line = a.box.x + comparison.wipe_at * width;
   ImGui::SetCursorScreenPos({line - half, a.box.y + frame.ui.px(30.0f)});
-  ImGui::InvisibleButton("wipe", {2 * half, std::max(1.0f, a.box.height - frame.ui.px(60.0f))});
+  invisible_button("wipe", {2 * half, a.box.height - frame.ui.px(60.0f)});
   frame.ui.mark("wipe");
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (lit) {

@@ -85,7 +85,9 @@ void draw_seed(LabFrame& frame, float width) {
   leading_label(frame.ui, "seed");
   ImGui::SetNextItemWidth(width - (ImGui::GetCursorScreenPos().x - start));
   std::uint64_t seed = frame.state.request.settings.seed;
-  if (ImGui::DragScalar("##seed", ImGuiDataType_U64, &seed, 0.05f)) {
+  constexpr std::uint64_t least = 0;
+  constexpr std::uint64_t largest = UINT64_MAX;
+  if (ImGui::DragScalar("##seed", ImGuiDataType_U64, &seed, 0.05f, &least, &largest)) {
     frame.state.request.settings.seed = seed;
   }
   frame.ui.mark("seed");
@@ -242,6 +244,9 @@ struct Rows {
 Rows lay_out_rows(const LabFrame& frame, float width, bool compact) {
   Rows rows;
   rows.items = items(frame, compact);
+  for (Item& item : rows.items) {
+    item.width = std::min(item.width, std::max(1.0f, width));
+  }
   rows.gap = frame.ui.px(compact ? 4.0f : 8.0f);
   rows.group_gap = frame.ui.px(compact ? 8.0f : 16.0f);
   float used = 0.0f;

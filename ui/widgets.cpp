@@ -23,6 +23,11 @@ float value_at(float t, const SliderRange& range) {
                            : range.low + t * (range.high - range.low);
 }
 
+/// Of the next item. To ImGui nothing and less means something else.
+void set_item_width(float width) {
+  ImGui::SetNextItemWidth(std::max(1.0f, width));
+}
+
 using Points = std::initializer_list<ImVec2>;
 
 void fill(ImDrawList& list, ImVec2 origin, float size, ImU32 color, Points points) {
@@ -79,12 +84,17 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 origin, float size, ImU32 col
 
 }  // namespace
 
+bool invisible_button(const std::string& name, ImVec2 size, ImGuiButtonFlags flags) {
+  return ImGui::InvisibleButton(name.c_str(), {std::max(1.0f, size.x), std::max(1.0f, size.y)},
+                                flags);
+}
+
 bool slider(Ui& ui, const std::string& name, float& value, const SliderRange& range, float width,
             ImU32 color) {
   const float height = ImGui::GetFrameHeight();
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float knob = ui.px(6.0f);
-  ImGui::InvisibleButton(name.c_str(), {std::max(width, 3 * knob), height});
+  invisible_button(name, {std::max(width, 3 * knob), height});
   ui.mark(name);
   const float left = origin.x + knob;
   const float span = std::max(width, 3 * knob) - 2 * knob;
@@ -111,7 +121,7 @@ bool slider(Ui& ui, const std::string& name, float& value, const SliderRange& ra
 
 bool number_field(Ui& ui, const std::string& name, float& value, float low, float high,
                   const char* format, float width) {
-  ImGui::SetNextItemWidth(width);
+  set_item_width(width);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2.0f), ImGui::GetStyle().FramePadding.y});
   float edited = value;
@@ -133,7 +143,7 @@ bool icon_button(Ui& ui, const std::string& name, Icon icon, bool enabled, float
   const bool plain = icon == Icon::reset;  // beside a slider: no frame
   const ImVec2 size(width > 0 ? width : height * (plain ? 0.8f : 1.15f), height);
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::InvisibleButton(name.c_str(), size) && enabled;
+  const bool pressed = invisible_button(name, size) && enabled;
   ui.mark(name);
   const bool lit = enabled && ImGui::IsItemHovered();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -150,7 +160,7 @@ bool icon_button(Ui& ui, const std::string& name, Icon icon, bool enabled, float
 
 bool combo(Ui& ui, const std::string& name, const std::string& shown, float width,
            const std::function<bool()>& rows) {
-  ImGui::SetNextItemWidth(width);
+  set_item_width(width);
   bool changed = false;
   const bool open =
       ImGui::BeginCombo(("##" + name).c_str(), shown.c_str(), ImGuiComboFlags_HeightLargest);

@@ -18,6 +18,10 @@ struct SliderRange {
   bool logarithmic = false;
 };
 
+/// What nothing draws, but the mouse can press. At least one pixel wide and high: of none ImGui
+/// makes nothing, and in a window that is too small for all there is a lot without room.
+bool invisible_button(const std::string& name, ImVec2 size, ImGuiButtonFlags flags = 0);
+
 /// A thin line with a knob; a click anywhere on it jumps there.
 bool slider(Ui& ui, const std::string& name, float& value, const SliderRange& range, float width,
             ImU32 color);

@@ -36,5 +36,22 @@ TEST(PanZoom, StaysWithinReason) {
   EXPECT_GE(zoomed_at({}, slot, width, height, 300, 200, 1e-9f).zoom, 0.25f);
 }
 
+TEST(PanZoom, ASlotWithoutRoomChangesNothing) {
+  for (const ScreenRect& none : {ScreenRect{100, 50, 0, 300}, {100, 50, 400, 0}, {0, 0, 0, 0}}) {
+    const PanZoom view{3.0f, {0.2f, 0.7f}};
+    EXPECT_EQ(zoomed_at(view, none, width, height, 100, 50, 1.2f), view);
+    EXPECT_EQ(panned(view, none, width, height, 5, 5), view);
+    EXPECT_FALSE(place_picture(view, none, width, height).pixel_at(100, 50, width, height));
+  }
+}
+
+TEST(PanZoom, APictureOfAFewPixelsStillFits) {
+  for (const int side : {1, 2, 3}) {
+    const PanZoom view = zoomed_at({}, slot, side, side, 300, 200, 1e9f);
+    EXPECT_GE(view.zoom, 1.0f) << side;
+    EXPECT_FALSE(place_picture(view, slot, side, side).pixel_at(-1e9f, 1e9f, side, side));
+  }
+}
+
 }  // namespace
 }  // namespace quartet
