@@ -26,6 +26,18 @@ bool wants_variance(const LabState& state) {
   });
 }
 
+/// What does not fit a part of a small window ends at that part's edge, and does not lie over its
+/// neighbours.
+class ClippedTo {
+ public:
+  explicit ClippedTo(const ScreenRect& box) {
+    ImGui::PushClipRect({box.x, box.y}, {box.right(), box.bottom()}, true);
+  }
+  ~ClippedTo() { ImGui::PopClipRect(); }
+  ClippedTo(const ClippedTo&) = delete;
+  ClippedTo& operator=(const ClippedTo&) = delete;
+};
+
 /// The lanes of the large view, to choose from, above it.
 void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
   Ui& ui = frame.ui;
@@ -149,14 +161,18 @@ void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
   if (state_.layout == LabLayout::large) {
     ScreenRect box = area;
     draw_lane_tabs(frame, box.cut_top(ui_.px(30.0f)));
+    const ClippedTo panel(box);
     draw_lane_column(frame, state_.comparison.lane, lay_out_large(ui_, box, wish));
     return;
   }
   const std::vector<ScreenRect> panels = lane_panels(ui_, area, state_.layout, count);
   for (std::size_t i = 0; i < panels.size(); ++i) {
+    const ClippedTo panel(panels[i]);
     draw_lane_column(frame, i,
                      state_.layout == LabLayout::grid ? lay_out_cell(ui_, panels[i], wish)
                                                       : lay_out_column(ui_, panels[i], wish));
+  }
+  for (std::size_t i = 0; i < panels.size(); ++i) {
     // Only the gaps are painted: the window is cleared to the panels' colour, and fill is what
     // costs where no graphics card draws.
     if (panels[i].right() < area.right() - 1) {
@@ -217,14 +233,22 @@ LabOrders LabWindow::draw(const LabInput& input) {
   ScreenRect area{0, 0, size.x, size.y};
   const ScreenRect status = area.cut_bottom(status_bar_height(ui_));
   const ScreenRect toolbar = area.cut_top(toolbar_height(frame, area.width));
-  draw_toolbar(frame, toolbar);
+  {
+    const ClippedTo box(toolbar);
+    draw_toolbar(frame, toolbar);
+  }
   ImGui::GetWindowDrawList()->AddRectFilled(
       {0, toolbar.bottom()}, {size.x, toolbar.bottom() + ui_.px(side_gap)}, palette::gap);
   area.cut_top(ui_.px(side_gap));
   const ScreenRect below_toolbar = area;
   const ScreenRect dock = area.cut_bottom(dock_height(frame, below_toolbar));
   draw_lanes(frame, area);
-  draw_dock(frame, below_toolbar, dock);
+  {
+    // With the half of its edge's handle that lies over the lanes.
+    const float handle = std::min(ui_.px(4.0f), area.height);
+    const ClippedTo box({dock.x, dock.y - handle, dock.width, dock.height + handle});
+    draw_dock(frame, below_toolbar, dock);
+  }
   draw_status_bar(frame, status);
   draw_help(frame);
   draw_export_form(frame);

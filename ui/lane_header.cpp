@@ -13,6 +13,9 @@
 namespace quartet {
 namespace {
 
+// In pixels at scale 1; where there is less room the number beside it stands alone.
+constexpr float shortest_slider = 20.0f;
+
 constexpr std::array channel_names{"R", "G", "B"};
 
 float row_height(const Ui& ui) {
@@ -143,11 +146,15 @@ bool edit_multiplier(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
   text_at(ui.body, box.x, box.y + ui.px(4.0f), palette::dim, "×");
   ImGui::SetCursorScreenPos({box.x + ui.px(14.0f), box.y});
   float& value = policy.allocation.multiplier;
-  bool changed = slider(ui, lane_name(lane, "multiplier"), value, {0.0f, 2.0f},
-                        box.width - field - gap - ui.px(14.0f), lane_color(lane));
-  tooltip(ui,
-          "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 its "
-          "pictures.");
+  const float track = box.width - field - gap - ui.px(14.0f);
+  bool changed = false;
+  if (track >= ui.px(shortest_slider)) {
+    changed =
+        slider(ui, lane_name(lane, "multiplier"), value, {0.0f, 2.0f}, track, lane_color(lane));
+    tooltip(ui,
+            "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 its "
+            "pictures.");
+  }
   ImGui::SetCursorScreenPos({box.right() - field, box.y});
   changed |=
       number_field(ui, lane_name(lane, "multiplier.number"), value, 0.0f, 1000.0f, "%.2f", field);
@@ -213,9 +220,11 @@ bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
     const std::string name = fmt::format("lane{}.threshold{}", lane, c);
     const float width = slider_width(box.width);
     ImGui::SetCursorScreenPos({x, box.y});
-    changed |= slider(ui, name, value, {range.low, range.high, true}, width, color);
-    tooltip(ui, source_text(row));
-    ImGui::SetCursorScreenPos({x + width, box.y});
+    if (width >= ui.px(shortest_slider)) {
+      changed |= slider(ui, name, value, {range.low, range.high, true}, width, color);
+      tooltip(ui, source_text(row));
+      ImGui::SetCursorScreenPos({x + width, box.y});
+    }
     changed |=
         number_field(ui, name + ".number", value, 1e-9f, 1e9f, threshold_format(value), field);
     tooltip(ui, source_text(row));
@@ -337,8 +346,13 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   } else {
     ScreenRect second = box.cut_top(row);
     // No wider than what they show: the multiplier needs the room.
-    const float policy_width = combo_width(ui, allocation(edited.allocation.kind).label);
-    const float use_width = combo_width(ui, sample_use(edited.use).label);
+    float policy_width = combo_width(ui, allocation(edited.allocation.kind).label);
+    float use_width = combo_width(ui, sample_use(edited.use).label);
+    // And in a narrow column its number does.
+    const float room = std::max(0.0f, second.width - 1.5f * gap - ui.px(60.0f));
+    const float share = std::min(1.0f, room / (policy_width + use_width));
+    policy_width *= share;
+    use_width *= share;
     ImGui::SetCursorScreenPos({second.x, second.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
     second.cut_left(policy_width + 0.5f * gap);

@@ -226,6 +226,7 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const View* picture,
   if (!picture) {
     draw_note(ui, slot.box,
               frame.loading                ? "loading the scene"
+              : !frame.state.request.scene ? "no scene is loaded"
               : frame.status.error.empty() ? "waiting for the first frame"
                                            : "nothing was rendered");
   } else if (picture->image.empty()) {

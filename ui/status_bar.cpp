@@ -82,7 +82,8 @@ void draw_status_bar(LabFrame& frame, const ScreenRect& box) {
   const float pad = ui.px(10.0f);
   ImGui::GetWindowDrawList()->AddRectFilled({box.x, box.y}, {box.right(), box.bottom()},
                                             palette::gap);
-  const std::string hint = "H shows all keys";
+  // The status comes first.
+  const std::string hint = fitting_text(ui.small, {"H shows all keys", ""}, 0.4f * box.width);
   text_left_of(ui.small, box.right() - pad, y, palette::faint, hint);
   float room = box.width - 3 * pad - text_width(ui.small, hint);
   if (frame.state.can_cancel) {

@@ -40,7 +40,7 @@ double dock(LabHand& hand) {
   return double(hand.rect("dock.box").height);
 }
 
-constexpr DraggedWidget dragged[] = {
+constexpr DraggedWidget dragged_widgets[] = {
     {"lane1.threshold0", 20, 0, threshold<1>, 1},
     {"lane1.threshold0", -20, 0, threshold<1>, -1},
     {"lane1.threshold0.number", 30, 0, threshold<1>, 1},
@@ -58,7 +58,7 @@ constexpr DraggedWidget dragged[] = {
 };
 
 TEST(Drag, NumbersFollowTheMouse) {
-  for (const DraggedWidget& each : dragged) {
+  for (const DraggedWidget& each : dragged_widgets) {
     LabHand hand(1280, 720);
     SCOPED_TRACE(std::string(each.widget) + " by " + std::to_string(int(each.x)));
     const ScreenRect box = hand.rect(each.widget);
