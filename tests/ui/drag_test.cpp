@@ -9,10 +9,10 @@ namespace {
 
 using Number = double (*)(LabHand& hand);
 
-/// A widget, dragged by so many pixels, and a number that must follow.
+/// A widget, dragged by so many pixels to the right, and a number that must follow.
 struct DraggedWidget {
   const char* widget;
-  float x, y;
+  float by;
   Number number;
   int sign;  ///< of its change
 };
@@ -40,32 +40,37 @@ double dock(LabHand& hand) {
   return double(hand.rect("dock.box").height);
 }
 
+// A press beside a knob takes it there, and one soon after at the same place is a double click: so
+// all to the right first, then all to the left.
 constexpr DraggedWidget dragged_widgets[] = {
-    {"lane1.threshold0", 20, 0, threshold<1>, 1},
-    {"lane1.threshold0", -20, 0, threshold<1>, -1},
-    {"lane1.threshold0.number", 30, 0, threshold<1>, 1},
-    {"lane1.threshold0.number", -30, 0, threshold<1>, -1},
-    {"lane3.errors.marker0", 15, 0, threshold<3>, 1},
-    {"lane3.errors.marker0", -15, 0, threshold<3>, -1},
-    {"lane2.multiplier", 15, 0, multiplier, 1},
-    {"lane2.multiplier", -15, 0, multiplier, -1},
-    {"lane2.multiplier.number", 15, 0, multiplier, 1},
-    {"exposure", 15, 0, exposure, 1},
-    {"exposure", -15, 0, exposure, -1},
-    {"exposure.number", 15, 0, exposure, 1},
-    {"frame", -60, 0, frame, -1},
-    {"seed", 60, 0, seed, 1},
+    {"lane1.threshold0", 20, threshold<1>, 1},
+    {"lane1.threshold0.number", 30, threshold<1>, 1},
+    {"lane3.errors.marker0", 15, threshold<3>, 1},
+    {"lane2.multiplier", 15, multiplier, 1},
+    {"lane2.multiplier.number", 15, multiplier, 1},
+    {"exposure", 15, exposure, 1},
+    {"exposure.number", 15, exposure, 1},
+    {"seed", 60, seed, 1},
+    {"frame", -20, frame, -1},
+    {"lane1.threshold0", -20, threshold<1>, -1},
+    {"lane1.threshold0.number", -30, threshold<1>, -1},
+    {"lane3.errors.marker0", -15, threshold<3>, -1},
+    {"lane2.multiplier", -30, multiplier, -1},
+    {"exposure", -15, exposure, -1},
+    {"frame", 20, frame, 1},
 };
 
 TEST(Drag, NumbersFollowTheMouse) {
+  LabHand hand(1280, 720);
   for (const DraggedWidget& each : dragged_widgets) {
-    LabHand hand(1280, 720);
-    SCOPED_TRACE(std::string(each.widget) + " by " + std::to_string(int(each.x)));
+    SCOPED_TRACE(std::string(each.widget) + " by " + std::to_string(int(each.by)));
     const ScreenRect box = hand.rect(each.widget);
-    // The slider of frames stands at its right end.
-    const float x = std::string_view(each.widget) == "frame" ? box.right() - 7.0f : box.center_x();
     const double before = each.number(hand);
-    hand.drag(x, box.center_y(), x + each.x, box.center_y() + each.y);
+    hand.move(box.center_x(), box.center_y());
+    hand.press(true);
+    hand.move(box.center_x() + 0.5f * each.by, box.center_y());
+    hand.move(box.center_x() + each.by, box.center_y());
+    hand.press(false);
     EXPECT_GT((each.number(hand) - before) * each.sign, 0.0) << "from " << before;
   }
 }
@@ -107,35 +112,40 @@ TEST(Drag, TheDocksEdgeFollowsTheMouse) {
   EXPECT_GT(dock(hand), least) << "from the end of its way it comes back";
 }
 
-TEST(Drag, ARightDragTurnsTheCameraTheOtherWay) {
+/// How far the camera goes to its right and upwards.
+template <class Action>
+glm::vec2 way_of_camera(LabHand& hand, const Action& action) {
+  const Camera before = hand.state().request.settings.camera;
+  action();
+  const glm::vec3 way = hand.state().request.settings.camera.origin - before.origin;
+  hand.state().request.settings.camera = before;
+  return {glm::dot(way, before.right), glm::dot(way, before.up)};
+}
+
+TEST(Drag, ARightDragTakesTheCameraToTheRightAndADragDownTakesItUp) {
   LabHand hand(1280, 720);
   const ScreenRect slot = hand.rect("lane0.slot0");
   const auto turned = [&](float x, float y) {
-    const Camera before = hand.state().request.settings.camera;
-    hand.drag(slot.center_x(), slot.center_y(), slot.center_x() + x, slot.center_y() + y, 1);
-    const Camera& after = hand.state().request.settings.camera;
-    const glm::vec3 way = after.origin - before.origin;
-    hand.key(key_home);
-    return glm::vec2(glm::dot(way, before.right), glm::dot(way, before.up));
+    return way_of_camera(hand, [&] {
+      hand.move(slot.center_x(), slot.center_y());
+      hand.press(true, 1);
+      hand.move(slot.center_x() + x, slot.center_y() + y);
+      hand.press(false, 1);
+    });
   };
-  // What is seen follows the mouse: the camera goes the other way around it.
-  EXPECT_LT(turned(20.0f, 0.0f).x, 0.0f);
-  EXPECT_GT(turned(-20.0f, 0.0f).x, 0.0f);
+  EXPECT_GT(turned(20.0f, 0.0f).x, 0.0f);
+  EXPECT_LT(turned(-20.0f, 0.0f).x, 0.0f);
   EXPECT_GT(turned(0.0f, 20.0f).y, 0.0f);
   EXPECT_LT(turned(0.0f, -20.0f).y, 0.0f);
 }
 
-TEST(Drag, ArrowsTurnTheCameraTheirWay) {
+TEST(Drag, ArrowsTurnTheCamera) {
   LabHand hand(1280, 720);
   const auto turned = [&](int key) {
-    const Camera before = hand.state().request.settings.camera;
-    hand.key(key);
-    const glm::vec3 way = hand.state().request.settings.camera.origin - before.origin;
-    hand.key(key_home);
-    return glm::vec2(glm::dot(way, before.right), glm::dot(way, before.up));
+    return way_of_camera(hand, [&] { hand.window().key({key, true, false, false}); });
   };
-  EXPECT_GT(turned(key_right).x, 0.0f);
-  EXPECT_LT(turned(key_left).x, 0.0f);
+  EXPECT_LT(turned(key_right).x, 0.0f) << "its view turns to the right";
+  EXPECT_GT(turned(key_left).x, 0.0f);
   EXPECT_GT(turned(key_up).y, 0.0f);
   EXPECT_LT(turned(key_down).y, 0.0f);
 }
@@ -175,7 +185,6 @@ void press_and_move(LabHand& hand, float by) {
   hand.press(true);
   hand.move(slot.center_x() + by, slot.center_y());
   hand.press(false);
-  hand.frames(25);
 }
 
 TEST(Drag, UnderThreePixelsItIsAClickThatPins) {

@@ -148,7 +148,6 @@ class Monkey {
 
   void act() {
     // What is tried more often stands more often.
-    using Act = void (Monkey::*)();
     static constexpr std::array acts{
         &Monkey::move,         &Monkey::move,        &Monkey::point,      &Monkey::point,
         &Monkey::point,        &Monkey::click,       &Monkey::click,      &Monkey::click,
