@@ -2,12 +2,18 @@
 
 #include <cstdlib>
 
+#include "renderer/image/leftovers.h"
+
 namespace quartet {
 
 ClosingTime::ClosingTime(std::chrono::milliseconds limit)
     : thread_([this, limit] {
         std::unique_lock lock(mutex_);
         if (!changed_.wait_for(lock, limit, [this] { return closed_; })) {
+          while (signals_are_held()) {  // files get their names: that is soon done
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          }
+          remove_leftovers();
           std::_Exit(0);
         }
       }) {

@@ -91,6 +91,10 @@ HoldSignals::~HoldSignals() {
   }
 }
 
+bool signals_are_held() noexcept {
+  return holds != 0;
+}
+
 bool hold_signal(int signal) noexcept {
   if (holds == 0) {
     return false;

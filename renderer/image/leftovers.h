@@ -31,6 +31,9 @@ class HoldSignals {
   HoldSignals& operator=(const HoldSignals&) = delete;
 };
 
+/// Whether one lives.
+bool signals_are_held() noexcept;
+
 /// For a handler: whether the signal has to wait; it comes again when there is nothing to wait for.
 /// Async-signal-safe.
 bool hold_signal(int signal) noexcept;

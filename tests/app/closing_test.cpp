@@ -10,6 +10,8 @@
 
 #include "app/closing_time.h"
 #include "app/end_signals.h"
+#include "renderer/image/leftovers.h"
+#include "tests/image/temp_folder.h"
 #include "tests/wait_until.h"
 
 namespace quartet {
@@ -81,8 +83,10 @@ TEST(EndSignals, AfterwardsTheyAreWhatTheyWere) {
   }
 }
 
-/// Something that never ends is being closed.
-[[noreturn]] void close_what_does_not_end() {
+/// Something that never ends is being closed, with a file that is half written.
+[[noreturn]] void close_what_does_not_end(const std::filesystem::path& file) {
+  write_bytes_to(file, "half");
+  const Leftover leftover(file);
   const ClosingTime closing(std::chrono::milliseconds(1));
   std::this_thread::sleep_for(test::patience);
   _exit(4);
@@ -94,7 +98,9 @@ TEST(EndSignals, AfterwardsTheyAreWhatTheyWere) {
 }
 
 TEST(ClosingTime, EndsTheProgramWhateverIsUnderWay) {
-  EXPECT_EXIT(close_what_does_not_end(), testing::ExitedWithCode(0), "");
+  const TempFolder folder;
+  EXPECT_EXIT(close_what_does_not_end(folder / "file"), testing::ExitedWithCode(0), "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "file"));
 }
 
 TEST(ClosingTime, DoesNothingToWhatIsClosedInTime) {
