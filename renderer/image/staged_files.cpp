@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <new>
 #include <random>
 #include <stdexcept>
 #include <system_error>
@@ -177,15 +178,26 @@ bool StagedFiles::commit(const std::function<bool()>& wanted) {
   return true;
 }
 
+/// An error of a writer, which knows the temporary name alone.
+std::string StagedFiles::with_final_names(std::string text) const {
+  for (const Staged& file : staged_) {
+    const std::string temporary = file.temporary().string();
+    if (const std::size_t at = text.find(temporary); at != std::string::npos) {
+      text.replace(at, temporary.size(), file.final.string());
+    }
+  }
+  return text;
+}
+
 bool StagedFiles::finish(const std::function<void()>& write, const std::function<bool()>& wanted) {
-  std::exception_ptr failure;
   std::string reason;
+  bool out_of_memory = false;
   try {
     write();
     return commit(wanted);
   } catch (const std::exception& error) {
-    failure = std::current_exception();
-    reason = error.what();
+    out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    reason = with_final_names(error.what());
   }
   discard();
   remove_created_folders();
@@ -195,7 +207,11 @@ bool StagedFiles::finish(const std::function<void()>& write, const std::function
     write();
     commit();
   } catch (const std::exception&) {
-    std::rethrow_exception(failure);  // it is not the place that is wrong
+    // It is not the place that is wrong.
+    if (out_of_memory) {
+      throw std::bad_alloc();
+    }
+    throw std::runtime_error(reason);
   }
   throw std::runtime_error(fmt::format("{}; what was made is in {}", reason, folder_.string()));
 }

@@ -84,6 +84,7 @@ class StagedFiles {
   void discard();
   StagingFolder& staging_in(const std::filesystem::path& folder);
   void list_set();
+  std::string with_final_names(std::string text) const;
   bool exchange_folder();
   void rename_each();
   void take_back(std::size_t renamed);
