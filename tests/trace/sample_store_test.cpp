@@ -248,8 +248,13 @@ TEST(SampleStore, SharesTheTimeOfAPassAmongItsPixels) {
     }
   };
   ASSERT_TRUE(store.require(Counts{0, 0}, Counts{3, 7}, slow));
-  ASSERT_TRUE(store.require(Counts{0, 0}, Counts{9, 8}, slow));
   const auto seconds = store.seconds_per_sample();
+  EXPECT_NEAR(double(seconds[1]) / double(seconds[0]), 100.0, 1e-3);
+  EXPECT_NEAR(double(seconds[0]) * 3 + double(seconds[1]) * 7, store.seconds(),
+              1e-4 * store.seconds());
+  const double first_pass = store.seconds();
+  ASSERT_TRUE(store.require(Counts{0, 0}, Counts{9, 8}, slow));
+  EXPECT_GT(store.seconds(), first_pass);
   // Every second of a pass is given to some sample.
   EXPECT_NEAR(double(seconds[0]) * 9 + double(seconds[1]) * 8, store.seconds(),
               1e-4 * store.seconds());

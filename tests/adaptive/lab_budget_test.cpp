@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "renderer/adaptive/lab.h"
+#include "tests/measure/noisy_source.h"
+
+namespace quartet {
+namespace {
+
+constexpr int width = 48;
+constexpr int height = 27;
+constexpr std::size_t pixels = std::size_t(width) * height;
+
+Lab noisy_lab(const std::vector<SamplingPolicy>& policies, LabOptions options) {
+  options.pilot_source = test::noisy_source(width + 1);
+  return {test::noisy_source(width), width, height, policies, options};
+}
+
+void run_to(Lab& lab, std::uint32_t frames) {
+  while (lab.frame() < frames) {
+    ASSERT_TRUE(lab.run_frame());
+  }
+}
+
+/// Takes one sample a frame and is never done; all that it is ahead it takes in its first frame.
+SamplingPolicy one_a_frame(std::uint16_t first, SampleUse use) {
+  SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  policy.allocation.kind = AllocationId::batch;
+  policy.allocation.first = first;
+  policy.allocation.batch = 1;
+  policy.thresholds = {-1.0f, -1.0f, -1.0f};
+  policy.use = use;
+  return policy;
+}
+
+TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
+  constexpr std::uint16_t ahead = 40;
+  constexpr std::uint32_t frames = 150;
+  for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
+    SCOPED_TRACE(sample_use(use).id);
+    // The slowest is in the middle.
+    const std::vector<SamplingPolicy> policies{one_a_frame(ahead, use), one_a_frame(1, use),
+                                               one_a_frame(ahead / 2, use)};
+    LabOptions options;
+    options.statistics.variance = true;  // no means, which would be forgotten first
+    Lab ample = noisy_lab(policies, options);
+    run_to(ample, 20);
+    // Room for somewhat more than what lies between the lanes, far less than for all.
+    options.memory = ample.stored_bytes();
+    run_to(ample, frames);
+    Lab tight = noisy_lab(policies, options);
+    run_to(tight, frames);
+    const std::uint64_t most = pixels * (ahead + frames - 1);
+    EXPECT_EQ(ample.store().traced(), most);
+    EXPECT_TRUE(tight.store().partial());
+    EXPECT_EQ(tight.store().traced(), most) << "none was traced again";
+    EXPECT_LT(tight.store().stored(), most / 2);
+    if (use == SampleUse::unbiased) {
+      EXPECT_TRUE(tight.pilot_store()->partial());
+      EXPECT_EQ(tight.pilot_store()->traced(), most);
+    }
+    for (std::size_t i = 0; i < policies.size(); ++i) {
+      EXPECT_TRUE(std::ranges::equal(ample.lanes()[i].taken(), tight.lanes()[i].taken()));
+      EXPECT_EQ(ample.lanes()[i].film().image(), tight.lanes()[i].film().image());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace quartet

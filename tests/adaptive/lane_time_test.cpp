@@ -1,0 +1,186 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/stopwatch.h"
+
+// What a lane is charged: its samples, whoever traced them, its share of reading them, and its own
+// estimates and plans. Sources state what each pixel's samples took. Of clocks only this is used:
+// stretches of time that lie inside another one and apart from each other add up to no more than
+// it.
+
+namespace quartet {
+namespace {
+
+constexpr int side = 16;
+constexpr std::size_t pixels = std::size_t(side) * side;
+// Sums of the same floats in another order.
+constexpr double rounding = 1e-6;
+
+/// Far dearer than reading, with work that grows from left to right.
+SampleSource dear_source(int milliseconds) {
+  return [milliseconds](std::span<SampleJob> jobs) {
+    for (SampleJob& job : jobs) {
+      for (std::size_t i = 0; i < job.radiance.size(); ++i) {
+        job.radiance[i] = glm::vec3(float((std::uint32_t(job.x) + job.first + i) % 5));
+      }
+      job.work *= 1.0 + job.x;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  };
+}
+
+/// What a lane's samples took to trace.
+double tracing_of(const Lane& lane, const SampleStore& shown, const SampleStore* pilot) {
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < lane.taken().size(); ++i) {
+    const double each = double(shown.seconds_per_sample()[i]) +
+                        (pilot ? double(pilot->seconds_per_sample()[i]) : 0.0);
+    seconds += double(lane.taken()[i]) * each;
+  }
+  return seconds;
+}
+
+double tracing_of(const Lab& lab, std::size_t lane) {
+  const bool has_pilot = lab.lanes()[lane].policy().use == SampleUse::unbiased;
+  return tracing_of(lab.lanes()[lane], lab.store(), has_pilot ? lab.pilot_store() : nullptr);
+}
+
+/// What a lane was charged beside the tracing of its samples.
+double own_of(const Lab& lab, std::size_t lane) {
+  return lab.lanes()[lane].history().back().seconds - tracing_of(lab, lane);
+}
+
+SamplingPolicy with_use(EstimatorId id, SampleUse use) {
+  SamplingPolicy policy = default_policy(id);
+  policy.use = use;
+  return policy;
+}
+
+/// Takes 256 samples of each pixel a frame, with next to nothing to estimate and plan.
+SamplingPolicy reading_policy() {
+  SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  policy.allocation.kind = AllocationId::batch;
+  policy.allocation.first = 256;
+  policy.allocation.batch = 256;
+  policy.thresholds = {-1.0f, -1.0f, -1.0f};
+  return policy;
+}
+
+TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
+  SampleStore shown(side, side, std::size_t(1) << 30);
+  SampleStore pilot(side, side, std::size_t(1) << 30);
+  const std::vector<std::uint32_t> none(pixels, 0);
+  const std::vector<std::uint32_t> plenty(pixels, 64);
+  ASSERT_TRUE(shown.require(none, plenty, dear_source(10)));
+  ASSERT_TRUE(pilot.require(none, plenty, dear_source(30)));
+  for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
+    SCOPED_TRACE(sample_use(use).id);
+    const bool has_pilot = use == SampleUse::unbiased;
+    const Stopwatch watch;
+    Lane lane(side, side, with_use(EstimatorId::kl, use), {});
+    const LaneStores stores{shown, has_pilot ? &pilot : nullptr};
+    double reading = 0.0;
+    for (const double take_seconds : {5.0, 7.0, 11.0}) {
+      lane.begin_frame(stores);
+      for (int row = 0; row < shown.tile_rows(); ++row) {
+        lane.take(stores, row);
+      }
+      lane.end_frame(take_seconds);
+      reading += take_seconds;
+      const double own = lane.history().back().seconds -
+                         tracing_of(lane, shown, has_pilot ? &pilot : nullptr) - reading;
+      EXPECT_GT(own, -rounding);
+      EXPECT_LT(own, watch.seconds() + rounding);
+    }
+  }
+}
+
+TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
+  const std::vector<SamplingPolicy> policies{
+      with_use(EstimatorId::uniform, SampleUse::reuse),
+      with_use(EstimatorId::kl, SampleUse::reuse),
+      with_use(EstimatorId::kl, SampleUse::unbiased),
+      with_use(EstimatorId::contrast, SampleUse::unbiased),
+  };
+  LabOptions options;
+  options.pilot_source = dear_source(15);
+  const Stopwatch watch;
+  Lab lab(dear_source(5), side, side, policies, options);
+  for (int frame = 0; frame < 4; ++frame) {
+    ASSERT_TRUE(lab.run_frame());
+  }
+  double own = 0.0;
+  for (std::size_t lane = 0; lane < policies.size(); ++lane) {
+    EXPECT_GT(own_of(lab, lane), -rounding) << lane;
+    own += own_of(lab, lane);
+  }
+  EXPECT_LT(own, watch.seconds() - lab.store().seconds() - lab.pilot_store()->seconds() + rounding);
+  // All samples together are charged what tracing took, none of it twice.
+  for (const SampleStore* store : {&lab.store(), lab.pilot_store()}) {
+    double all = 0.0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      std::uint32_t most = 0;
+      for (std::size_t lane = 0; lane < policies.size(); ++lane) {
+        const bool takes = store == &lab.store() || policies[lane].use == SampleUse::unbiased;
+        most = takes ? std::max(most, lab.lanes()[lane].taken()[i]) : most;
+      }
+      all += double(most) * double(store->seconds_per_sample()[i]);
+    }
+    EXPECT_NEAR(all / store->seconds(), 1.0, 1e-4);
+  }
+}
+
+TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
+  constexpr std::size_t lanes = 8;
+  const std::vector<SamplingPolicy> policies(lanes, reading_policy());
+  LabOptions options;
+  options.threads = 1;
+  options.statistics.variance = true;
+  Lab lab(dear_source(0), side, side, policies, options);
+  ASSERT_TRUE(lab.run_frame());
+  const double tracing = lab.store().seconds();
+  double best = 0.0;
+  // Whatever else the machine does only adds to what passes: the best of many tries counts.
+  for (int attempt = 0; attempt < 50 && best < 0.5; ++attempt) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      lab.set_policy(lane, policies[lane]);
+    }
+    const Stopwatch watch;
+    ASSERT_TRUE(lab.run_frame());
+    const double passed = watch.seconds();
+    double own = 0.0;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      EXPECT_GT(own_of(lab, lane), 0.0) << lane;
+      own += own_of(lab, lane);
+    }
+    EXPECT_LT(own, passed + lanes * rounding) << "each its own part";
+    best = std::max(best, own / passed);
+  }
+  EXPECT_GE(best, 0.5) << "there is next to nothing but reading, and it is charged";
+  EXPECT_EQ(lab.store().seconds(), tracing) << "nothing was traced";
+}
+
+TEST(LaneTime, ALaneThatRestsIsChargedNothing) {
+  const std::vector<SamplingPolicy> policies(3, default_policy(EstimatorId::kl));
+  Lab lab(dear_source(1), side, side, policies, {});
+  ASSERT_TRUE(lab.run_frame());
+  ASSERT_TRUE(lab.run_frame());
+  const double first = lab.lanes()[0].history().back().seconds;
+  const double last = lab.lanes()[2].history().back().seconds;
+  lab.set_policy(1, policies[1]);
+  ASSERT_TRUE(lab.run_frame());
+  EXPECT_EQ(lab.lanes()[1].frame(), 1u);
+  EXPECT_EQ(lab.lanes()[0].history().back().seconds, first);
+  EXPECT_EQ(lab.lanes()[2].history().back().seconds, last);
+  // What it had been charged before it began again is forgotten.
+  const Stopwatch watch;
+  lab.set_policy(1, policies[1]);
+  ASSERT_TRUE(lab.run_frame());
+  EXPECT_LT(own_of(lab, 1), watch.seconds() + rounding);
+}
+
+}  // namespace
+}  // namespace quartet
