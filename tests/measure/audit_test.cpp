@@ -58,6 +58,29 @@ TEST(Audit, RejectsWhatAFilmRejects) {
   }
 }
 
+// Two samples, 1 and 3: mean 2, and 1 is the variance of that mean. A picture of x is off by
+// ((x − 2)² − 1) / (4 + 0.01).
+TEST(Audit, TakesItsOwnNoiseOffTheError) {
+  const SampleSource hidden = [](int, int, std::uint32_t first, std::span<glm::vec3> radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      radiance[i] = glm::vec3((first + i) % 2 == 0 ? 1.0f : 3.0f);
+    }
+  };
+  const Audit audit(hidden, 4, 1, 1.0, 2, 0);
+  ASSERT_EQ(audit.pixels().size(), 4u);
+  EXPECT_DOUBLE_EQ(audit.pixels()[0].mean.y, 2.0);
+  EXPECT_DOUBLE_EQ(audit.pixels()[0].variance_of_mean.y, 1.0);
+  const std::vector<PixelState> states{PixelState::done, PixelState::done, PixelState::refining,
+                                       PixelState::done};
+  const std::vector<float> mean{5.0f, 3.0f, 5.0f, 2.0f};
+  const std::array<std::span<const float>, 3> means{mean, mean, mean};
+  const double error = 8.0 / 4.01;
+  EXPECT_EQ(audit.check(states, means, error - 1e-9).done, 3.0);
+  EXPECT_EQ(audit.check(states, means, error - 1e-9).wrong, 1.0);
+  EXPECT_EQ(audit.check(states, means, error + 1e-9).wrong, 0.0);
+  EXPECT_EQ(audit.check(states, means, 1e-9).wrong, 1.0) << "3 is off by no more than the noise";
+}
+
 // Every second pixel of the picture is wrong by a fifth of the truth, the others are right; every
 // third is not done. The audit's noise, 0.0003 in squared relative error, is far from the target.
 TEST(Audit, FindsWhatIsDoneAndWrong) {

@@ -129,6 +129,34 @@ TEST(Calibrate, UniformTakesAsManyFramesAsTheBudgetHas) {
   EXPECT_NE(found->reason.find("whole frames"), std::string::npos);
 }
 
+TEST(CommonBudget, IsWhatItSaysOfARun) {
+  Measurement run;
+  run.mean_spp = 3.0;
+  run.record.seconds = 5.0;
+  run.record.samples = 7;
+  run.values = {11.0};
+  const CommonBudget spp{.spp = 24.0};
+  const CommonBudget seconds{.seconds = 1.5};
+  const CommonBudget error{.error = ErrorTarget{MetricId::flip, 0.25}};
+  EXPECT_EQ(spp.of(run), 3.0);
+  EXPECT_EQ(seconds.of(run), 5.0);
+  EXPECT_EQ(error.of(run), 11.0);
+  EXPECT_EQ(spp.text(), "24 spp");
+  EXPECT_EQ(seconds.text(), "1.5 s");
+  EXPECT_EQ(error.text(), "flip 0.25");
+}
+
+TEST(Calibrate, UniformAtABudgetIsTheNearestOfItsFrames) {
+  Experiment experiment = make_experiment();
+  // Two frames are 20 % under 2.5 samples a pixel, three are 20 % above: as a ratio 3 is nearer.
+  const auto found = calibrate(experiment, default_policy(EstimatorId::uniform), {.spp = 2.5});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->result.mean_spp, 3.0);
+  EXPECT_EQ(found->factor, 1.0);
+  EXPECT_EQ(found->runs, 1);
+  EXPECT_EQ(found->reason, "whole frames come no nearer than 3 spp");
+}
+
 TEST(Calibrate, CanBeStopped) {
   Experiment experiment = make_experiment();
   std::stop_source stop;

@@ -38,6 +38,19 @@ TEST(Interval, ProbabilitiesAgreeWithTheFiniteSum) {
   }
 }
 
+// The standard error of 1, 2, 3, 4 is √(5/12), and t of three degrees at 95 % is 3.18245.
+TEST(Interval, OfAMeanByHand) {
+  const std::array values{1.0, 2.0, 3.0, 4.0};
+  const double error = std::sqrt(5.0 / 12.0);
+  const Interval interval = mean_interval(values, 0.05);
+  EXPECT_DOUBLE_EQ(interval.mean, 2.5);
+  EXPECT_NEAR(interval.low, 2.5 - 3.182446 * error, 1e-5);
+  EXPECT_NEAR(interval.high, 2.5 + 3.182446 * error, 1e-5);
+  EXPECT_NEAR(mean_p(values, 2.5 - 3.182446 * error), 0.05, 1e-6);
+  EXPECT_NEAR(mean_p(values, 2.5 + 3.182446 * error), 0.05, 1e-6);
+  EXPECT_DOUBLE_EQ(mean_of(values), 2.5);
+}
+
 // 20 000 intervals at 90 % miss the truth 2 000 times, standard deviation 42; five of them: false
 // alarms under 1e-6.
 TEST(Interval, MissesTheTruthAsOftenAsItSays) {

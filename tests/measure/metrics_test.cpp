@@ -118,6 +118,23 @@ TEST(Metrics, PsnrLooksAtWhatADisplayShows) {
       << "black against white: an MSE of 1";
 }
 
+// sRGB is linear up to 0.0031308 and from there on a power.
+TEST(Metrics, PsnrOfDarkValuesIsThatOfTheirSrgb) {
+  for (const float dark : {0.0005f, 0.0015f, 0.003f, 0.0032f, 0.005f, 0.01f, 0.02f, 0.04f, 0.05f}) {
+    const RadianceImage test(3, 2, glm::vec3(dark));
+    const RadianceImage black(3, 2, glm::vec3(0.0f));
+    const double linear = double(dark);
+    const double shown =
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    EXPECT_NEAR(value(MetricId::psnr, test, black), -20.0 * std::log10(shown), 1e-4) << dark;
+    EXPECT_NEAR(metric(MetricId::psnr).map(test, black).at(1, 1), shown * shown,
+                1e-6 * shown * shown)
+        << dark;
+    EXPECT_NEAR(srgb_encode(linear), shown, 1e-12);
+    EXPECT_NEAR(srgb_decode(shown), linear, 1e-6);
+  }
+}
+
 TEST(Metrics, OfAPictureAgainstItselfSayNoError) {
   const RadianceImage image = even_noise(33, 21, 1);
   for (const Metric& row : metrics()) {

@@ -9,6 +9,7 @@
 
 #include "renderer/measure/calibrate.h"
 #include "renderer/measure/sweep_charts.h"
+#include "renderer/scene/load_scene.h"
 #include "tests/measure/noisy_source.h"
 
 namespace quartet {
@@ -194,6 +195,116 @@ TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].against_uniform, 0.5, 1e-12);
   EXPECT_NEAR(points[0].error, 1.0 / 3.0, 1e-12);
+}
+
+TEST(SweepPoints, OfThreeSeedsByHand) {
+  SweepPlan plan = small_plan();
+  plan.policies = {default_policy(EstimatorId::kl)};
+  plan.thresholds = 1;
+  plan.low = 1.0;
+  plan.metrics = {MetricId::mse, MetricId::rmse, MetricId::psnr};
+  SweepResult result;
+  result.first_seed = 100;
+  const auto measured = [](double seconds, double spp, double mse, double rmse, double psnr) {
+    Measurement measurement;
+    measurement.record.seconds = seconds;
+    measurement.mean_spp = spp;
+    measurement.values = {mse, rmse, psnr};
+    return measurement;
+  };
+  // Uniform sampling after 1 and 4 s; the second seed has a third measurement.
+  result.uniform = {
+      {measured(1, 10, 8, 80, 30), measured(4, 40, 2, 40, 36)},
+      {measured(1.5, 11, 6, 60, 31), measured(6, 44, 1.5, 30, 37), measured(9, 66, 1, 20, 39)},
+      {measured(3, 30, 4, 50, 33), measured(5, 50, 1.25, 25, 38)}};
+  const auto add = [&](std::uint64_t seed, const Measurement& end) {
+    SweepRun run{.policy = plan.policies[0], .seed = seed};
+    run.end = end;
+    result.runs.push_back(run);
+  };
+  add(100, measured(2, 20, 1, 100, 35));
+  add(101, measured(3, 28, 6, 15, 32));
+  add(102, measured(13, 90, 0.5, 50, 40));
+
+  const auto mse = sweep_points(result, plan, 0);
+  ASSERT_EQ(mse.size(), 1u);
+  EXPECT_EQ(mse[0].policy, plan.policies[0]);
+  EXPECT_EQ(mse[0].factor, 1.0);
+  EXPECT_EQ(mse[0].seconds, 3.0) << "the mean is 6";
+  EXPECT_EQ(mse[0].mean_spp, 28.0) << "the mean is 46";
+  EXPECT_EQ(mse[0].error, 1.0);
+  EXPECT_EQ(mse[0].error_low, 0.5);
+  EXPECT_EQ(mse[0].error_high, 6.0);
+  // Uniform sampling: 8/s, so 4 after 2 s; 9/s, so 3 after 3 s; after 13 s, beyond its last
+  // measurement, 1.25 · 5 / 13. Ratios: 1/4, 2 and 0.5 · 13 / 6.25 = 1.04.
+  EXPECT_NEAR(mse[0].against_uniform, 1.04, 1e-12);
+  const auto rmse = sweep_points(result, plan, 1);
+  EXPECT_EQ(rmse[0].error, 50.0);
+  EXPECT_EQ(rmse[0].error_low, 15.0);
+  EXPECT_EQ(rmse[0].error_high, 100.0);
+  // 80 falls to 40 as 1/√s: 80 / √2 after 2 s. 60 to 30 too: 60 / √2 after 3 s. Beyond the last, 25
+  // falls by √(5/13). Ratios: 1.77, 0.35 and 3.2.
+  EXPECT_NEAR(rmse[0].against_uniform, 100.0 / 80.0 * std::sqrt(2.0), 1e-9);
+  const auto psnr = sweep_points(result, plan, 2);
+  EXPECT_EQ(psnr[0].error, 35.0);
+  EXPECT_TRUE(std::isnan(psnr[0].against_uniform)) << "of decibels there is no ratio";
+
+  const auto uniform = uniform_points(result, 0);
+  ASSERT_EQ(uniform.size(), 2u) << "as many as the first seed has";
+  EXPECT_EQ(uniform[0].policy.estimator, EstimatorId::uniform);
+  EXPECT_EQ(uniform[0].seconds, 1.5);
+  EXPECT_EQ(uniform[0].mean_spp, 11.0);
+  EXPECT_EQ(uniform[0].error, 6.0);
+  EXPECT_EQ(uniform[0].error_low, 4.0);
+  EXPECT_EQ(uniform[0].error_high, 8.0);
+  EXPECT_EQ(uniform[0].against_uniform, 1.0);
+  EXPECT_EQ(uniform[1].seconds, 5.0);
+  EXPECT_EQ(uniform[1].mean_spp, 44.0);
+  EXPECT_EQ(uniform[1].error, 1.5);
+  EXPECT_EQ(uniform[1].error_low, 1.25);
+  EXPECT_EQ(uniform[1].error_high, 2.0);
+
+  const SweepSummary summary = summarize(result, plan, 0, 0.125);
+  EXPECT_EQ(summary.metric, MetricId::mse);
+  EXPECT_EQ(summary.seeds, 3u);
+  EXPECT_EQ(summary.noise_floor, 0.125);
+  ASSERT_EQ(summary.points.size(), 1u);
+  EXPECT_EQ(summary.points[0].seconds, 3.0);
+  ASSERT_EQ(summary.uniform.size(), 2u);
+  // By rising time: uniform after 1.5 s, kl after 3 s; uniform after 5 s is worse than that.
+  ASSERT_EQ(summary.front.size(), 2u);
+  EXPECT_EQ(summary.front[0].error, 6.0);
+  EXPECT_EQ(summary.front[1].error, 1.0);
+}
+
+TEST(Sweep, EachSeedIsUsed) {
+  const SweepResult& result = small_result();
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_NE(result.uniform[k].back().values, result.uniform[k - 1].back().values);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NE(result.runs[6 * k + i].end.values, result.runs[6 * (k - 1) + i].end.values) << i;
+    }
+  }
+  // The tracer's world gives seed k what a lab with that seed has.
+  const auto scene = std::make_shared<const TraceScene>(open_scene("synthetic:log-normal"));
+  RenderSettings settings = default_settings(scene->scene());
+  settings.seed = 3;
+  const SampleWorld world = sample_world(scene, settings, {}, nullptr);
+  EXPECT_EQ(world.first_seed, 3u);
+  const auto first_of = [](const SampleSource& source) {
+    glm::vec3 sample;
+    source(5, 7, 0, std::span(&sample, 1));
+    return sample;
+  };
+  for (const std::uint64_t seed : {3, 4}) {
+    RenderSettings own = settings;
+    own.seed = seed;
+    EXPECT_EQ(first_of(world.source(seed)), first_of(sample_source(scene, own)));
+    EXPECT_EQ(first_of(world.pilot(seed)), first_of(pilot_source(scene, own)));
+    EXPECT_NE(first_of(world.pilot(seed)), first_of(world.source(seed)));
+  }
+  EXPECT_NE(first_of(world.source(3)), first_of(world.source(4)));
+  EXPECT_NE(first_of(world.pilot(3)), first_of(world.pilot(4)));
 }
 
 SweepPoint point_at(double seconds, double error) {

@@ -238,5 +238,43 @@ TEST(PowerHeuristic, WeighsEveryLightThatAPathFinds) {
   EXPECT_GT(escaped, 200);
 }
 
+/// What a sample would be with the weights of the balance heuristic, Veach's other one.
+double balanced(const PathLog& log, double environment_pdf) {
+  double sum = 0.0;
+  if (const auto& direct = log.vertices[0].direct) {
+    const double light = double(direct->light.pdf);
+    const double balance = light / (light + double(direct->bsdf.pdf));
+    sum += double(direct->contribution.y) * balance / double(direct->weight);
+  }
+  if (log.vertices.size() > 1 && log.vertices[1].emitted) {
+    const FoundLight& found = *log.vertices[1].emitted;
+    const double bsdf = double(log.vertices[0].scattered->pdf);
+    const double balance = bsdf / (bsdf + environment_pdf);
+    sum += double(found.contribution.y) * balance / double(found.weight);
+  }
+  return sum;
+}
+
+// A shiny metal under an even sky: one way finds nearly all there is, and the other is to be left
+// out where it only adds noise.
+TEST(PowerHeuristic, LeavesLessVarianceThanBalanceWould) {
+  Scene scene;
+  Material metal = rough_metal();
+  metal.alpha = 0.15f;
+  add_shape(scene, parallelogram({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), metal);
+  scene.environment = glm::vec3(1.0f);
+  const TraceScene trace(std::move(scene));
+  const RenderSettings settings = one_point(IntegratorId::mis, 2);
+  Moments power;
+  Moments balance;
+  for (std::uint32_t index = 0; index < 4096; ++index) {
+    const PathLog log = log_path(trace, settings, 0, 0, index);
+    power.add(double(log.radiance.y));
+    balance.add(balanced(log, double(trace.lights().environment_pdf())));
+  }
+  EXPECT_NEAR(power.mean() / balance.mean(), 1.0, 0.02);
+  EXPECT_LT(power.variance(), 0.9 * balance.variance());
+}
+
 }  // namespace
 }  // namespace quartet
