@@ -154,6 +154,48 @@ TEST_F(CompareCommand, PrintsEveryMetricAsTextAndAsJson) {
   EXPECT_NE(text.out.find("no reference of Quartet's"), std::string::npos);
 }
 
+TEST_F(CompareCommand, EveryNumberOfItsJsonStandsUnderItsName) {
+  RadianceImage test(2, 1);
+  test.pixels()[0] = {0.25f, 0.5f, 0.75f};
+  test.pixels()[1] = {0.5f, 1.0f, 1.25f};
+  RadianceImage truth(2, 1);
+  truth.pixels()[0] = {0.0f, 0.25f, 0.5f};
+  truth.pixels()[1] = {0.25f, 0.5f, 1.0f};
+  ExrImage timed(2, 1);
+  timed.add_radiance(test);
+  timed.attributes = {{"seconds", "2.5"}, {"samples", "7"}};
+  write_exr(path("test.exr"), timed);
+  write_picture(path("truth.exr"), truth);
+  const auto json =
+      nlohmann::json::parse(run({"compare", path("test.exr"), path("truth.exr"), "--json"}).out);
+  EXPECT_EQ(json.at("test"), path("test.exr"));
+  EXPECT_EQ(json.at("reference"), path("truth.exr"));
+  EXPECT_EQ(json.at("width"), 2);
+  EXPECT_EQ(json.at("height"), 1);
+  EXPECT_EQ(json.at("test_mean"), nlohmann::json({0.375, 0.75, 1.0}));
+  EXPECT_EQ(json.at("reference_mean"), nlohmann::json({0.125, 0.375, 0.75}));
+  EXPECT_EQ(json.at("seconds"), 2.5);
+  const double mse = (5 * 0.0625 + 0.25) / 6.0;
+  EXPECT_DOUBLE_EQ(json.at("metrics").at("mse").get<double>(), mse);
+  EXPECT_DOUBLE_EQ(json.at("metrics").at("rmse").get<double>(), std::sqrt(mse));
+  EXPECT_DOUBLE_EQ(json.at("metrics").at("efficiency").get<double>(), 1.0 / (mse * 2.5));
+  for (const Metric& row : metrics()) {
+    EXPECT_DOUBLE_EQ(json.at("metrics").at(row.id).get<double>(), row.compute(test, truth))
+        << row.id;
+  }
+
+  // Against a reference of ours, whose noise is known.
+  ASSERT_EQ(reference("ref.exr", {"--spp", "8"}).code, 0);
+  const Reference ours = reference_of(*sums_of(read_exr(path("ref.exr")), "ref.exr"));
+  write_picture(path("even.exr"), RadianceImage(20, 15, glm::vec3(0.5f)));
+  const auto known =
+      nlohmann::json::parse(run({"compare", path("even.exr"), path("ref.exr"), "--json"}).out);
+  for (const Metric& row : metrics()) {
+    EXPECT_DOUBLE_EQ(known.at("noise_floor").at(row.id).get<double>(), ours.noise_floor(row.key))
+        << row.id;
+  }
+}
+
 TEST_F(CompareCommand, OfAPictureWithItself) {
   write_picture(path("a.exr"), RadianceImage(20, 15, glm::vec3(0.5f)));
   const Result result = run({"compare", path("a.exr"), path("a.exr"), "--json"});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/adaptive/estimator.h"
 #include "renderer/measure/regions.h"
 #include "tests/app/csv.h"
 #include "tests/app/program.h"
@@ -145,7 +146,19 @@ TEST_F(SweepCommands, CalibrateMeetsABudgetThatItsLanesReproduce) {
   for (const auto& entry : json.at("estimators")) {
     EXPECT_TRUE(entry.at("met").get<bool>()) << entry.dump();
     EXPECT_NEAR(entry.at("mean_spp").get<double>(), 12.0, 0.13);
+    const Estimator& row = find_estimator(entry.at("estimator").get<std::string>());
+    EXPECT_EQ(entry.at("frames"), row.channels > 0 ? 8 : 12);
+    EXPECT_EQ(entry.at("thresholds").size(), std::size_t(row.channels));
+    for (std::size_t c = 0; c < std::size_t(row.channels); ++c) {
+      EXPECT_FLOAT_EQ(entry.at("thresholds")[c].get<float>(),
+                      float(double(row.default_thresholds[c]) * entry.at("factor").get<double>()));
+    }
+    EXPECT_GT(entry.at("seconds").get<double>(), 0.0);
+    EXPECT_GE(entry.at("runs"), 1);
+    EXPECT_FALSE(entry.contains("reason"));
   }
+  EXPECT_EQ(json.at("scene"), "cornell-box");
+  EXPECT_EQ(json.at("frames"), 8);
   const auto figure = run({"figure", "cornell-box", "--size", "48x48", "--frames", "8", "--lane",
                            json.at("estimators")[0].at("lane").get<std::string>(), "--out", out()});
   ASSERT_EQ(figure.code, 0) << figure.error;

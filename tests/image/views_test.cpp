@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/image/lane_exr.h"
@@ -174,6 +177,114 @@ TEST(Views, RejectedSamplesAreShownAndNamedPerPixel) {
   EXPECT_EQ(pixel_values(snapshot.lanes[0], 1).rejected, 0u);
 }
 
+/// What a display shows of linear radiance: sRGB, in 255 steps.
+int shown(double linear) {
+  const double cut = std::clamp(linear, 0.0, 1.0);
+  const double encoded = cut <= 0.0031308 ? 12.92 * cut : 1.055 * std::pow(cut, 1.0 / 2.4) - 0.055;
+  return int(std::lround(255.0 * encoded));
+}
+
+TEST(Views, ThePictureAndTheReferenceAreShownAlike) {
+  Snapshot snapshot = blank_snapshot(2, 1, two);
+  RadianceImage truth(2, 1);
+  truth.pixels()[0] = {0.01f, 0.02f, 0.04f};
+  truth.pixels()[1] = {0.1f, 0.2f, 0.3f};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      snapshot.lanes[1].mean[std::size_t(c)][i] = truth.pixels()[i][c];
+    }
+  }
+  snapshot.reference = std::make_shared<const RadianceImage>(truth);
+  for (const float exposure : {-1.5f, 0.0f, 1.0f, 2.0f}) {
+    ViewSettings settings;
+    settings.exposure = exposure;
+    for (const ViewKind kind : {ViewKind::image, ViewKind::reference}) {
+      SCOPED_TRACE(std::string(view_row(kind).id) + " at " + std::to_string(exposure));
+      const View view = draw_view(snapshot, 1, kind, settings);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const glm::dvec3 c = glm::dvec3(truth.pixels()[i]) * std::exp2(double(exposure));
+        const Rgba8 pixel = view.image.pixels()[i];
+        EXPECT_EQ(int(pixel.r), shown(c.r));
+        EXPECT_EQ(int(pixel.g), shown(c.g));
+        EXPECT_EQ(int(pixel.b), shown(c.b));
+      }
+    }
+    for (const ToneMapRow& row : tone_maps()) {
+      settings.tone_map = row.key;
+      EXPECT_EQ(draw_view(snapshot, 1, ViewKind::reference, settings).image,
+                draw_view(snapshot, 1, ViewKind::image, settings).image)
+          << row.id;
+    }
+  }
+}
+
+TEST(Views, TrueErrorsAreRelativeAndLogarithmic) {
+  Snapshot snapshot = blank_snapshot(3, 1, two);
+  EXPECT_FALSE(draw_view(snapshot, 0, ViewKind::true_error, {}).note.empty());
+  EXPECT_FALSE(draw_view(snapshot, 0, ViewKind::reference, {}).note.empty());
+  // (x − r)² / (r² + 0.01), the mean over the channels: 1, 1/1000 and 1/3 of 0.01.
+  RadianceImage truth(3, 1);
+  for (std::size_t c = 0; c < 3; ++c) {
+    snapshot.lanes[1].mean[c] = {0.1f, std::sqrt(1e-5f), 0.3f};
+  }
+  truth.pixels()[2] = glm::vec3(0.3f);
+  snapshot.lanes[1].mean[1][2] += std::sqrt(0.001f);
+  snapshot.reference = std::make_shared<const RadianceImage>(truth);
+  const View view = draw_view(snapshot, 1, ViewKind::true_error, {});
+  EXPECT_EQ(view.bar->scale, (ColorScale{1e-6, 1.0, ColorMapId::viridis, Spacing::logarithmic}));
+  const auto expect_at = [&](int x, double error) {
+    const double place = 1.0 + std::log10(error) / 6.0;
+    EXPECT_EQ(view.image.at(x, 0), sample(ColorMapId::viridis, float(place))) << x;
+  };
+  expect_at(0, 1.0);
+  expect_at(1, 1e-3);
+  expect_at(2, 0.01 / 3.0);
+}
+
+TEST(Views, HeatmapsShowTheShareOfTheHighestCount) {
+  Snapshot snapshot = blank_snapshot(3, 1, two);
+  snapshot.lanes[0].taken = {0, 10, 30};
+  snapshot.lanes[1].taken = {1, 2, 40};
+  finish(snapshot);
+  const View linked = draw_view(snapshot, 0, ViewKind::heatmap, {});
+  EXPECT_EQ(linked.image.at(0, 0), sample(ColorMapId::turbo, 0.0f));
+  EXPECT_EQ(linked.image.at(1, 0), sample(ColorMapId::turbo, 0.25f));
+  EXPECT_EQ(linked.image.at(2, 0), sample(ColorMapId::turbo, 0.75f));
+  ViewSettings report;
+  report.heat = HeatRange::report;
+  const View own = draw_view(snapshot, 0, ViewKind::heatmap, report);
+  EXPECT_EQ(own.image.at(0, 0), sample(ColorMapId::report, 0.0f));
+  EXPECT_EQ(own.image.at(1, 0), sample(ColorMapId::report, 1.0f / 3.0f));
+  EXPECT_EQ(own.image.at(2, 0), sample(ColorMapId::report, 1.0f));
+}
+
+TEST(Views, RejectedSamplesShareAScale) {
+  Snapshot snapshot = blank_snapshot(2, 1, two);
+  snapshot.lanes[0].rejected = {2, 1};
+  snapshot.lanes[1].rejected = {0, 8};
+  const View view = draw_view(snapshot, 0, ViewKind::rejected, {});
+  EXPECT_EQ(view.bar->scale, (ColorScale{0.0, 8.0, ColorMapId::viridis}));
+  EXPECT_EQ(view.image.at(0, 0), sample(ColorMapId::viridis, 0.25f));
+  EXPECT_EQ(view.image.at(1, 0), sample(ColorMapId::viridis, 0.125f));
+}
+
+TEST(Views, DifferencesAreOfLuminance) {
+  Snapshot snapshot = blank_snapshot(3, 1, two);
+  for (std::size_t c = 0; c < 3; ++c) {
+    snapshot.lanes[0].mean[c][c] = 0.5f;  // red, green and blue, side by side
+  }
+  ViewSettings settings;
+  settings.other = 1;
+  const View view = draw_view(snapshot, 0, ViewKind::difference, settings);
+  ASSERT_EQ(view.bar->scale, (ColorScale{-0.5, 0.5, ColorMapId::coolwarm}));
+  const auto expect_at = [&](int x, double weight) {
+    EXPECT_EQ(view.image.at(x, 0), sample(ColorMapId::coolwarm, float(0.5 + 0.5 * weight))) << x;
+  };
+  expect_at(0, 0.2126);
+  expect_at(1, 0.7152);
+  expect_at(2, 0.0722);
+}
+
 TEST(Views, ImagesGoThroughExposureAndToneMap) {
   Snapshot snapshot = blank_snapshot(1, 1, two);
   for (std::vector<float>& plane : snapshot.lanes[0].mean) {
@@ -201,6 +312,47 @@ TEST(LaneExr, HoldsWhatTheSnapshotKnows) {
   const ExrImage other = lane_exr(snapshot, 1);
   EXPECT_TRUE(other.find("Error.kl"));
   EXPECT_FALSE(other.find("Variance.R"));
+}
+
+TEST(LaneExr, EveryChannelHoldsItsOwnNumbers) {
+  Snapshot snapshot = blank_snapshot(2, 1, two);
+  LaneSnapshot& lane = snapshot.lanes[0];
+  lane.mean = {{{1.0f, 2.0f}, {3.0f, 4.0f}, {5.0f, 6.0f}}};
+  lane.taken = {107, 108};
+  lane.rejected = {9, 10};
+  lane.error = {11.0f, 12.0f, 13.0f, 14.0f, 15.0f, 16.0f};
+  lane.variance = {21.0f, 22.0f, 23.0f, 24.0f, 25.0f, 26.0f};
+  RadianceImage truth(2, 1);
+  truth.pixels()[0] = {0.0f, 1.0f, 2.0f};  // off by 1, 2 and 3
+  truth.pixels()[1] = {2.0f, 4.0f, 0.0f};  // by 0, 0 and 6
+  snapshot.reference = std::make_shared<const RadianceImage>(truth);
+  const ExrImage exr = lane_exr(snapshot, 0);
+  const auto floats = [&](const char* name) {
+    const ExrChannel* channel = exr.find(name);
+    return channel ? std::get<std::vector<float>>(channel->pixels) : std::vector<float>();
+  };
+  const auto counts = [&](const char* name) {
+    const ExrChannel* channel = exr.find(name);
+    return channel ? std::get<std::vector<std::uint32_t>>(channel->pixels)
+                   : std::vector<std::uint32_t>();
+  };
+  using Floats = std::vector<float>;
+  using Counts = std::vector<std::uint32_t>;
+  EXPECT_EQ(floats("R"), (Floats{1, 2}));
+  EXPECT_EQ(floats("G"), (Floats{3, 4}));
+  EXPECT_EQ(floats("B"), (Floats{5, 6}));
+  EXPECT_EQ(counts("SampleCount"), (Counts{98, 98}));
+  EXPECT_EQ(counts("Rejected"), (Counts{9, 10}));
+  EXPECT_EQ(floats("Error.contrast.R"), (Floats{11, 12}));
+  EXPECT_EQ(floats("Error.contrast.G"), (Floats{13, 14}));
+  EXPECT_EQ(floats("Error.contrast.B"), (Floats{15, 16}));
+  EXPECT_EQ(floats("Variance.R"), (Floats{21, 22}));
+  EXPECT_EQ(floats("Variance.G"), (Floats{23, 24}));
+  EXPECT_EQ(floats("Variance.B"), (Floats{25, 26}));
+  EXPECT_EQ(floats("SquaredError"), (Floats{14.0f / 3.0f, 12.0f}));
+  EXPECT_EQ(exr.channels.size(), 12u);
+  snapshot.lanes[1].error = {31.0f, 32.0f};
+  EXPECT_EQ(std::get<Floats>(lane_exr(snapshot, 1).find("Error.kl")->pixels), (Floats{31, 32}));
 }
 
 }  // namespace
