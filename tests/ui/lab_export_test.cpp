@@ -6,8 +6,10 @@
 
 #include <sstream>
 
+#include "app/lane_option.h"
 #include "renderer/cancel.h"
 #include "renderer/image/exr.h"
+#include "renderer/image/png.h"
 #include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
 #include "tests/ui/lab_hand.h"
@@ -66,6 +68,63 @@ TEST(LabWindowExport, SaysWhereAndHowToRepeatIt) {
   const std::string command = bytes_of(folder / "out" / "command.txt");
   EXPECT_NE(command.find("--size 96x54"), std::string::npos) << command;
   EXPECT_NE(command.find("--frames 5"), std::string::npos) << command;
+}
+
+TEST(LabWindowExport, PicturesAreAsTheyAreShownAndTheCommandRepeatsThem) {
+  const TempFolder folder;
+  const std::filesystem::path out = folder / "out";
+  LabHand hand;
+  hand.state().view.exposure = 1.5f;
+  hand.state().view.tone_map = ToneMap::filmic;
+  hand.state().view.heat = HeatRange::report;
+  hand.frames(3);
+  save(hand, out);
+  const std::string command = bytes_of(out / "command.txt");
+  EXPECT_NE(command.find(" --exposure=1.5 "), std::string::npos) << command;
+  EXPECT_NE(command.find(" --tone-map filmic "), std::string::npos) << command;
+  EXPECT_NE(command.find(" --heat report "), std::string::npos) << command;
+  write_png(folder / "shown.png",
+            draw_view(hand.snapshot(), 1, ViewKind::image, hand.state().view).image);
+  write_png(folder / "heat.png",
+            draw_view(hand.snapshot(), 1, ViewKind::heatmap, hand.state().view).image);
+  EXPECT_EQ(bytes_of(out / "kl.png"), bytes_of(folder / "shown.png"));
+  EXPECT_EQ(bytes_of(out / "kl-heatmap.png"), bytes_of(folder / "heat.png"));
+  std::filesystem::remove(out / "kl.png");
+  const Result again = run(words_of(out / "command.txt"));
+  ASSERT_EQ(again.code, 0) << again.error;
+  EXPECT_EQ(bytes_of(out / "kl.png"), bytes_of(folder / "shown.png"));
+}
+
+TEST(ReproducingCommand, SaysAllThatIsNotAsItComes) {
+  Snapshot snapshot;
+  snapshot.scene = std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker")));
+  snapshot.settings = default_settings(snapshot.scene->scene());
+  snapshot.settings.width = 96;
+  snapshot.settings.height = 54;
+  snapshot.settings.seed = 7;
+  snapshot.frame = 13;
+  snapshot.lanes.resize(2);
+  snapshot.lanes[0].policy = default_policy(EstimatorId::kl);
+  snapshot.lanes[1].policy = default_policy(EstimatorId::uniform);
+  const std::string plain =
+      "quartet figure cornell-checker --frames 13 --size 96x54 --integrator mis --seed 7";
+  const std::string lanes = " --lane " + lane_text(snapshot.lanes[0].policy) + " --lane " +
+                            lane_text(snapshot.lanes[1].policy);
+  EXPECT_EQ(reproducing_command(snapshot, {}, "cornell-checker", "out", {}),
+            plain + lanes + " --out out");
+  snapshot.settings.max_depth = 4;
+  snapshot.settings.camera.origin = {1, 2, 3};
+  snapshot.settings.camera.right = {4, 5, 6};
+  snapshot.settings.camera.up = {7, 8, 9};
+  snapshot.settings.camera.forward = {10, 11, 12};
+  ViewSettings view;
+  view.exposure = -2.25f;
+  view.tone_map = ToneMap::reinhard;
+  view.heat = HeatRange::report;
+  EXPECT_EQ(reproducing_command(snapshot, view, "cornell-checker", "out", "ref.exr"),
+            plain + " --max-depth 4 --camera=1,2,3,4,5,6,7,8,9,10,11,12" + lanes +
+                " --reference ref.exr --heat report --tone-map reinhard --exposure=-2.25"
+                " --out out");
 }
 
 TEST(LabWindowExport, ALaneThatLooksAtTheTruthComesWithTheFileOfIt) {
