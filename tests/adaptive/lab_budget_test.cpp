@@ -67,5 +67,13 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
   }
 }
 
+TEST(LabBudget, APilotIsTracedForTheLanesThatHaveOne) {
+  constexpr std::uint32_t frames = 5;
+  Lab lab = noisy_lab({one_a_frame(40, SampleUse::reuse), one_a_frame(2, SampleUse::unbiased)}, {});
+  run_to(lab, frames);
+  EXPECT_EQ(lab.store().traced(), pixels * (40 + frames - 1));
+  EXPECT_EQ(lab.pilot_store()->traced(), pixels * (2 + frames - 1));
+}
+
 }  // namespace
 }  // namespace quartet
