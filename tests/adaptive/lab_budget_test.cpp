@@ -8,13 +8,13 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 48;
-constexpr int height = 27;
-constexpr std::size_t pixels = std::size_t(width) * height;
+constexpr int budget_width = 48;
+constexpr int budget_height = 27;
+constexpr std::size_t budget_pixels = std::size_t(budget_width) * budget_height;
 
 Lab noisy_lab(const std::vector<SamplingPolicy>& policies, LabOptions options) {
-  options.pilot_source = test::noisy_source(width + 1);
-  return {test::noisy_source(width), width, height, policies, options};
+  options.pilot_source = test::noisy_source(budget_width + 1);
+  return {test::noisy_source(budget_width), budget_width, budget_height, policies, options};
 }
 
 void run_to(Lab& lab, std::uint32_t frames) {
@@ -51,7 +51,7 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
     run_to(ample, frames);
     Lab tight = noisy_lab(policies, options);
     run_to(tight, frames);
-    const std::uint64_t most = pixels * (ahead + frames - 1);
+    const std::uint64_t most = budget_pixels * (ahead + frames - 1);
     EXPECT_EQ(ample.store().traced(), most);
     EXPECT_TRUE(tight.store().partial());
     EXPECT_EQ(tight.store().traced(), most) << "none was traced again";
@@ -71,8 +71,8 @@ TEST(LabBudget, APilotIsTracedForTheLanesThatHaveOne) {
   constexpr std::uint32_t frames = 5;
   Lab lab = noisy_lab({one_a_frame(40, SampleUse::reuse), one_a_frame(2, SampleUse::unbiased)}, {});
   run_to(lab, frames);
-  EXPECT_EQ(lab.store().traced(), pixels * (40 + frames - 1));
-  EXPECT_EQ(lab.pilot_store()->traced(), pixels * (2 + frames - 1));
+  EXPECT_EQ(lab.store().traced(), budget_pixels * (40 + frames - 1));
+  EXPECT_EQ(lab.pilot_store()->traced(), budget_pixels * (2 + frames - 1));
 }
 
 }  // namespace

@@ -14,10 +14,10 @@
 namespace quartet {
 namespace {
 
-constexpr int side = 16;
-constexpr std::size_t pixels = std::size_t(side) * side;
+constexpr int timed_side = 16;
+constexpr std::size_t timed_pixels = std::size_t(timed_side) * timed_side;
 // Sums of the same floats in another order.
-constexpr double rounding = 1e-6;
+constexpr double time_rounding = 1e-6;
 
 /// Far dearer than reading, with work that grows from left to right.
 SampleSource dear_source(int milliseconds) {
@@ -70,17 +70,17 @@ SamplingPolicy reading_policy() {
 }
 
 TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
-  SampleStore shown(side, side, std::size_t(1) << 30);
-  SampleStore pilot(side, side, std::size_t(1) << 30);
-  const std::vector<std::uint32_t> none(pixels, 0);
-  const std::vector<std::uint32_t> plenty(pixels, 64);
+  SampleStore shown(timed_side, timed_side, std::size_t(1) << 30);
+  SampleStore pilot(timed_side, timed_side, std::size_t(1) << 30);
+  const std::vector<std::uint32_t> none(timed_pixels, 0);
+  const std::vector<std::uint32_t> plenty(timed_pixels, 64);
   ASSERT_TRUE(shown.require(none, plenty, dear_source(10)));
   ASSERT_TRUE(pilot.require(none, plenty, dear_source(30)));
   for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
     SCOPED_TRACE(sample_use(use).id);
     const bool has_pilot = use == SampleUse::unbiased;
     const Stopwatch watch;
-    Lane lane(side, side, with_use(EstimatorId::kl, use), {});
+    Lane lane(timed_side, timed_side, with_use(EstimatorId::kl, use), {});
     const LaneStores stores{shown, has_pilot ? &pilot : nullptr};
     double reading = 0.0;
     for (const double take_seconds : {5.0, 7.0, 11.0}) {
@@ -92,8 +92,8 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
       reading += take_seconds;
       const double own = lane.history().back().seconds -
                          tracing_of(lane, shown, has_pilot ? &pilot : nullptr) - reading;
-      EXPECT_GT(own, -rounding);
-      EXPECT_LT(own, watch.seconds() + rounding);
+      EXPECT_GT(own, -time_rounding);
+      EXPECT_LT(own, watch.seconds() + time_rounding);
     }
   }
 }
@@ -108,20 +108,21 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
   LabOptions options;
   options.pilot_source = dear_source(15);
   const Stopwatch watch;
-  Lab lab(dear_source(5), side, side, policies, options);
+  Lab lab(dear_source(5), timed_side, timed_side, policies, options);
   for (int frame = 0; frame < 4; ++frame) {
     ASSERT_TRUE(lab.run_frame());
   }
   double own = 0.0;
   for (std::size_t lane = 0; lane < policies.size(); ++lane) {
-    EXPECT_GT(own_of(lab, lane), -rounding) << lane;
+    EXPECT_GT(own_of(lab, lane), -time_rounding) << lane;
     own += own_of(lab, lane);
   }
-  EXPECT_LT(own, watch.seconds() - lab.store().seconds() - lab.pilot_store()->seconds() + rounding);
+  EXPECT_LT(own,
+            watch.seconds() - lab.store().seconds() - lab.pilot_store()->seconds() + time_rounding);
   // All samples together are charged what tracing took, none of it twice.
   for (const SampleStore* store : {&lab.store(), lab.pilot_store()}) {
     double all = 0.0;
-    for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t i = 0; i < timed_pixels; ++i) {
       std::uint32_t most = 0;
       for (std::size_t lane = 0; lane < policies.size(); ++lane) {
         const bool takes = store == &lab.store() || policies[lane].use == SampleUse::unbiased;
@@ -139,7 +140,7 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
   LabOptions options;
   options.threads = 1;
   options.statistics.variance = true;
-  Lab lab(dear_source(0), side, side, policies, options);
+  Lab lab(dear_source(0), timed_side, timed_side, policies, options);
   ASSERT_TRUE(lab.run_frame());
   const double tracing = lab.store().seconds();
   double best = 0.0;
@@ -156,7 +157,7 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
       EXPECT_GT(own_of(lab, lane), 0.0) << lane;
       own += own_of(lab, lane);
     }
-    EXPECT_LT(own, passed + lanes * rounding) << "each its own part";
+    EXPECT_LT(own, passed + lanes * time_rounding) << "each its own part";
     best = std::max(best, own / passed);
   }
   EXPECT_GE(best, 0.5) << "there is next to nothing but reading, and it is charged";
@@ -165,7 +166,7 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
 
 TEST(LaneTime, ALaneThatRestsIsChargedNothing) {
   const std::vector<SamplingPolicy> policies(3, default_policy(EstimatorId::kl));
-  Lab lab(dear_source(1), side, side, policies, {});
+  Lab lab(dear_source(1), timed_side, timed_side, policies, {});
   ASSERT_TRUE(lab.run_frame());
   ASSERT_TRUE(lab.run_frame());
   const double first = lab.lanes()[0].history().back().seconds;
@@ -179,7 +180,7 @@ TEST(LaneTime, ALaneThatRestsIsChargedNothing) {
   const Stopwatch watch;
   lab.set_policy(1, policies[1]);
   ASSERT_TRUE(lab.run_frame());
-  EXPECT_LT(own_of(lab, 1), watch.seconds() + rounding);
+  EXPECT_LT(own_of(lab, 1), watch.seconds() + time_rounding);
 }
 
 }  // namespace

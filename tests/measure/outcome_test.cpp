@@ -8,17 +8,17 @@
 #include "renderer/adaptive/lab.h"
 #include "tests/measure/noisy_source.h"
 
-// A lane made by hand: the oracle sees which pixels are to be done, the truth says which are wrong,
-// and every sample of a pixel is the same but for two that no film takes.
+// A lane made by hand: the oracle sees which pixels are to be done, the truth says which are
+// wrong, and every sample of a pixel is the same but for two that no film takes.
 
 namespace quartet {
 namespace {
 
-constexpr int width = 6;
-constexpr int height = 2;
-constexpr std::size_t pixels = std::size_t(width) * height;
-constexpr PixelRegion region{1, 0, 6, 2};  // all but the first column
-constexpr double target = 0.1;
+constexpr int made_width = 6;
+constexpr int made_height = 2;
+constexpr std::size_t made_pixels = std::size_t(made_width) * made_height;
+constexpr PixelRegion made_region{1, 0, 6, 2};  // all but the first column
+constexpr double made_target = 0.1;
 
 /// A pixel shows 1; it is done if the oracle's reference says so too, else it is off by 1. The
 /// truth of a wrong one is 2.
@@ -30,7 +30,7 @@ struct Made {
 // Outside of the region: two that are done, one of them wrong and four times as bright.
 // Within: done and right 3, done and wrong 1, at the maximum and right 2, at the maximum and wrong
 // 4.
-constexpr std::array<Made, pixels> made{{
+constexpr std::array<Made, made_pixels> made{{
     {true, false},
     {true, false},
     {true, true},
@@ -51,8 +51,8 @@ float scale_of(std::size_t pixel) {
 }
 
 RadianceImage true_picture() {
-  RadianceImage image(width, height);
-  for (std::size_t i = 0; i < pixels; ++i) {
+  RadianceImage image(made_width, made_height);
+  for (std::size_t i = 0; i < made_pixels; ++i) {
     image.pixels()[i] = glm::vec3(scale_of(i) * (made[i].wrong ? 2.0f : 1.0f));
   }
   return image;
@@ -60,15 +60,15 @@ RadianceImage true_picture() {
 
 /// What the oracle compares with.
 RadianceImage oracle_picture() {
-  RadianceImage image(width, height);
-  for (std::size_t i = 0; i < pixels; ++i) {
+  RadianceImage image(made_width, made_height);
+  for (std::size_t i = 0; i < made_pixels; ++i) {
     image.pixels()[i] = glm::vec3(scale_of(i) + (made[i].done ? 0.0f : 1.0f));
   }
   return image;
 }
 
 void sample_made(int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
-  const auto pixel = std::size_t(y * width + x);
+  const auto pixel = std::size_t(y * made_width + x);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     const std::size_t index = first + i;
     const bool bad = (pixel == 1 && index == 1) || (pixel == 4 && index == 6);
@@ -92,7 +92,7 @@ Lab made_lab(const SamplingPolicy& policy) {
   LabOptions options;
   options.reference = std::make_shared<const RadianceImage>(oracle_picture());
   options.pilot_source = SampleSource(sample_made);
-  return {SampleSource(sample_made), width, height, std::span(&policy, 1), options};
+  return {SampleSource(sample_made), made_width, made_height, std::span(&policy, 1), options};
 }
 
 Truth made_truth() {
@@ -106,17 +106,17 @@ Audit made_audit() {
   const SampleSource hidden = [](int x, int y, std::uint32_t, std::span<glm::vec3> radiance) {
     std::ranges::fill(radiance, true_picture().at(x, y));
   };
-  return {hidden, width, height, 1.0, 2, 0};
+  return {hidden, made_width, made_height, 1.0, 2, 0};
 }
 
 /// The lane and its outcome, once it wants no more.
 Outcome run_to_end(Lab& lab, const Truth& truth) {
-  Observation observation(truth, region, target);
+  Observation observation(truth, made_region, made_target);
   while (lab.lanes()[0].plan().total > 0) {
     observation.before_frame(lab.lanes()[0]);
     lab.run_frame();
   }
-  const std::vector<std::uint32_t> even(pixels, 6);
+  const std::vector<std::uint32_t> even(made_pixels, 6);
   return observation.outcome(lab.lanes()[0], even, made_audit());
 }
 
@@ -149,7 +149,8 @@ TEST(Outcome, OfALaneByHand) {
   EXPECT_DOUBLE_EQ(outcome.never_done_cost, 16.0 / 72.0);
   EXPECT_EQ(outcome.audit.done, 4.0);
   EXPECT_EQ(outcome.audit.wrong, 1.0);
-  // Two frames after the first gave two samples each to six pixels, two of which are not wrong.
+  // Two frames after the first gave two samples each to six pixels, two of which are not
+  // wrong.
   EXPECT_DOUBLE_EQ(outcome.wasted, 1.0 / 3.0);
   // Six pixels have 2 of 72 samples too few, six as many too many.
   EXPECT_DOUBLE_EQ(outcome.off_oracle, 1.0 / 6.0);
@@ -171,7 +172,7 @@ TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
   for (int frame = 1; frame <= 3; ++frame) {
     lab.run_frame();
     const std::vector<PixelState> states = pixel_states(lab.lanes()[0]);
-    for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t i = 0; i < made_pixels; ++i) {
       EXPECT_EQ(states[i], made[i].done ? PixelState::done
                            : frame < 3  ? PixelState::refining
                                         : PixelState::at_maximum)

@@ -58,12 +58,12 @@ Material rough_metal() {
 }
 
 /// A floor, with lights above it.
-struct Case {
+struct LitCase {
   std::string name;
   std::function<void(Scene&)> light;
 };
 
-std::vector<Case> cases() {
+std::vector<LitCase> lit_cases() {
   const auto panel = [](Scene& s) { add_panel(s, {-1, 1.5f, -1}, 2.0f, 2.0f); };
   return {
       {"panel and environment",
@@ -97,7 +97,7 @@ std::vector<Case> cases() {
   };
 }
 
-TraceScene make(const Case& c, const Material& floor) {
+TraceScene lit_floor(const LitCase& c, const Material& floor) {
   Scene scene;
   add_shape(scene, parallelogram({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), floor);
   c.light(scene);
@@ -118,11 +118,11 @@ RenderSettings one_point(IntegratorId id, int max_depth) {
 // rate of 1e-3 over all; what is as dim as a forgotten chance makes it must be noticed.
 TEST(MixedLights, BothIntegratorsAgree) {
   constexpr int batches = 64;
-  const std::vector<Case> all = cases();
+  const std::vector<LitCase> all = lit_cases();
   const double level = sidak_level(1e-3, 4.0 * double(all.size()));
-  for (const Case& c : all) {
+  for (const LitCase& c : all) {
     for (const bool rough : {false, true}) {
-      const TraceScene scene = make(c, rough ? rough_metal() : diffuse(0.7f));
+      const TraceScene scene = lit_floor(c, rough ? rough_metal() : diffuse(0.7f));
       for (const int max_depth : {2, 4}) {
         SCOPED_TRACE(c.name + (rough ? ", rough metal, depth " : ", diffuse, depth ") +
                      std::to_string(max_depth));
@@ -146,9 +146,9 @@ TEST(MixedLights, BothIntegratorsAgree) {
 // What a sample of a light says of its density is what the way by a surface's BSDF weighs with.
 TEST(MixedLights, DensitiesOfBothWaysAreTheSame) {
   const glm::vec3 from(0.1f, 0.01f, 0.2f);
-  for (const Case& c : cases()) {
+  for (const LitCase& c : lit_cases()) {
     SCOPED_TRACE(c.name);
-    const TraceScene scene = make(c, diffuse(0.5f));
+    const TraceScene scene = lit_floor(c, diffuse(0.5f));
     int environment = 0;
     int shapes = 0;
     for (std::uint32_t i = 0; i < 4000; ++i) {
@@ -199,9 +199,9 @@ TEST(PowerHeuristic, WeighsEveryLightThatAPathFinds) {
   int direct = 0;
   int met = 0;
   int escaped = 0;
-  for (const Case& c : cases()) {
+  for (const LitCase& c : lit_cases()) {
     for (const Material& floor : {diffuse(0.7f), rough_metal()}) {
-      const TraceScene scene = make(c, floor);
+      const TraceScene scene = lit_floor(c, floor);
       const RenderSettings settings = one_point(IntegratorId::mis, 6);
       for (std::uint32_t index = 0; index < 400; ++index) {
         const PathLog log = log_path(scene, settings, 0, 0, index);
