@@ -29,7 +29,7 @@ bool can_be_found(const std::string& scene) {
 }
 
 /// What is under way when the window closes may take this long to end, and no longer.
-constexpr auto closing_time = std::chrono::milliseconds(350);
+constexpr auto closing_time = std::chrono::milliseconds(250);
 
 void run_window(const WindowOptions& options) {
   // What must outlast all else comes first.

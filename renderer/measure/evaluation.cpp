@@ -86,8 +86,8 @@ EvaluationTask::Work evaluation_work() {
       } else {
         publish({});
       }
-    } catch (const std::invalid_argument&) {
-      // A picture with which a metric means nothing: its number stays unknown.
+    } catch (const std::exception&) {
+      // A picture with which a metric means nothing, or one too large: its number stays unknown.
       publish({});
     }
   };
