@@ -67,9 +67,9 @@ ChosenLane lane_of(const std::string& text, const PolicyOptions& options) {
       if (thresholds.size() == std::size_t(row.channels)) {
         fail(text, fmt::format("'{}' is one too many or unknown", word));
       }
-      const std::optional<float> number = number_in(word, threshold_range);
+      const std::optional<float> number = number_in(word, threshold_limits);
       if (!number) {
-        fail(text, out_of_range(word, threshold_range));
+        fail(text, out_of_range(word, threshold_limits));
       }
       thresholds.push_back(*number);
     }

@@ -27,7 +27,7 @@ struct PolicyOptions {
 };
 
 /// Of a threshold, by option or in a lane.
-inline constexpr NumberRange<float> threshold_range = above_zero<float>;
+inline constexpr NumberRange<float> threshold_limits = above_zero<float>;
 
 /// Adds all of them to a command.
 void add_policy_options(CLI::App& command, PolicyOptions& options);

@@ -118,7 +118,7 @@ void add_render_command(CLI::App& app, const Program& program) {
   add_run_options(*command, options->run);
   command->add_option("--estimator", options->estimator, "Which; see quartet list")
       ->capture_default_str();
-  add_numbers(*command, "--threshold", options->thresholds, threshold_range,
+  add_numbers(*command, "--threshold", options->thresholds, threshold_limits,
               "One number, or three for contrast: R,G,B; the estimator's default if not given")
       ->expected(1, 3);
   add_stop_options(*command, options->stop);
