@@ -14,6 +14,7 @@
 #include "renderer/image/exr.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/staged_files.h"
+#include "renderer/printable.h"
 #include "tests/app/csv.h"
 #include "tests/app/program.h"
 #include "tests/image/temp_folder.h"
@@ -148,7 +149,7 @@ TEST(Output, EveryCsvTakesEveryNameOfAScene) {
     ASSERT_GT(rows.size(), 1u);
     for (std::size_t i = 1; i < rows.size(); ++i) {
       EXPECT_EQ(rows[i].size(), rows[0].size());
-      EXPECT_EQ(rows[i][0], name);
+      EXPECT_EQ(rows[i][0], printable(name));
     }
   }
 }
@@ -175,13 +176,13 @@ TEST(Output, AFigureThatIsTooLargeIsRefusedBefore) {
       "at most 32767x32767");
   expect_usage_error(
       {"render", "synthetic:constant", "--size", "70000x1", "-o", (folder / "a.exr").string()},
-      "--size: an EXR of 70000x1 pixels");
+      "--size: a picture of 70000 x 1 pixels");
   expect_usage_error({"reference", "synthetic:constant", "--size", "70000x1", "--spp", "2", "-o",
                       (folder / "a.exr").string()},
-                     "--size: an EXR of 70000x1 pixels");
+                     "--size: a picture of 70000 x 1 pixels");
   expect_usage_error(
       {"render", "synthetic:constant", "--size", "1000001x1", "-o", (folder / "a.png").string()},
-      "at most 1000000x1000000");
+      "--size: a picture of 1000001 x 1 pixels");
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>());
 }
 

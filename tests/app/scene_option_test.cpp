@@ -48,10 +48,10 @@ TEST(SceneOptions, CamerasOutOfRangeAreWrongUsage) {
         message);
   };
   const std::string axes = ",-1,0,0,0,1,0,0,0,-1";
-  expect_refused("nan,0,0" + axes, "--camera: origin is (nan, 0, 0), each coordinate must be");
+  expect_refused("nan,0,0" + axes, "--camera: 'nan' is not a number from");
   expect_refused("0,2e9,0" + axes, "from -1000000000 to 1000000000");
   expect_refused("0,0,1e20" + axes, "--camera: origin is");
-  expect_refused("0,0,0,-1,0,0,0,inf,0,0,0,-1", "must have length 1");
+  expect_refused("0,0,0,-1,0,0,0,inf,0,0,0,-1", "--camera: 'inf' is not a number from");
   expect_refused("0,0,0,-1,0,0,0,2,0,0,0,-1", "must have length 1");
   expect_refused("0,0,0,-1,0,0,1,0,0,0,0,-1", "must be at right angles");
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>());

@@ -46,8 +46,11 @@ inline void fail_each_call(const std::function<void()>& work, int stride,
   }
 }
 
-/// Does the work in a process of its own, and throws what it threw. The destructors of the JSON
-/// library allocate, so that it ends the program where that fails; here that is an error.
+/// Does the work in a process of its own, and throws what it threw. An object of the JSON library
+/// that found no memory is half made, and ends the program when it is touched again, at the latest
+/// by its destructor: by an assertion, or by a null pointer where assertions are off. Nothing can
+/// be done about it from outside; here it is an error like others, and files must be whole after
+/// it.
 inline void in_a_child(const std::function<void()>& work) {
   const pid_t child = fork();
   if (child == 0) {
@@ -58,7 +61,7 @@ inline void in_a_child(const std::function<void()>& work) {
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFSIGNALED(status)) {
-    EXPECT_EQ(WTERMSIG(status), SIGABRT);
+    EXPECT_TRUE(WTERMSIG(status) == SIGABRT || WTERMSIG(status) == SIGSEGV) << status;
     throw std::runtime_error("terminated");
   }
   if (WEXITSTATUS(status) == 2) {

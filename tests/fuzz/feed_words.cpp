@@ -22,8 +22,9 @@ class Commands {
           add_stability_command}) {
       add(app_, program_);
     }
+    // Called once the options are read and checked, ahead of what does the work.
     for (CLI::App* command : app_.get_subcommands({})) {
-      command->callback([] {});
+      command->parse_complete_callback([] { throw OptionsRead(); });
     }
   }
 
@@ -34,12 +35,15 @@ class Commands {
     }
     try {
       app_.parse(int(arguments.size()), arguments.data());
+    } catch (const OptionsRead&) {
     } catch (const CLI::ParseError& error) {
       promise(error.get_exit_code() == 0 || *error.what() != '\0', "a refusal says nothing");
     }
   }
 
  private:
+  struct OptionsRead {};
+
   Program program_;
   CLI::App app_;
 };

@@ -10,8 +10,8 @@
 namespace quartet {
 namespace {
 
-constexpr int width = 64;
-constexpr int height = 48;
+constexpr int audited_width = 64;
+constexpr int audited_height = 48;
 
 SampleSource source_of(std::string_view id, std::uint64_t seed) {
   return [row = &find_synthetic(id), seed](int x, int y, std::uint32_t first,
@@ -22,9 +22,9 @@ SampleSource source_of(std::string_view id, std::uint64_t seed) {
 
 // 3 072 lots at 1 in 4: standard deviation 24; false alarms under 1e-6.
 TEST(Audit, LooksAtTheShareOfPixelsThatWasAskedFor) {
-  const Audit audit(source_of("log-normal", 1), width, height, 0.25, 2, 9);
+  const Audit audit(source_of("log-normal", 1), audited_width, audited_height, 0.25, 2, 9);
   EXPECT_NEAR(double(audit.pixels().size()), 768.0, 120.0);
-  const Audit other(source_of("log-normal", 1), width, height, 0.25, 2, 10);
+  const Audit other(source_of("log-normal", 1), audited_width, audited_height, 0.25, 2, 10);
   std::size_t common = 0;
   for (const Audit::Pixel& a : audit.pixels()) {
     for (const Audit::Pixel& b : other.pixels()) {
@@ -37,8 +37,8 @@ TEST(Audit, LooksAtTheShareOfPixelsThatWasAskedFor) {
 TEST(Audit, MeansAndTheirVarianceAreThoseOfTheSource) {
   const Synthetic& row = find_synthetic("bernoulli");
   constexpr std::uint32_t samples = 400;
-  const Audit audit(source_of("bernoulli", 3), width, height, 1.0, samples, 0);
-  ASSERT_EQ(audit.pixels().size(), std::size_t(width) * height);
+  const Audit audit(source_of("bernoulli", 3), audited_width, audited_height, 1.0, samples, 0);
+  ASSERT_EQ(audit.pixels().size(), std::size_t(audited_width) * audited_height);
   double mean = 0.0;
   double variance = 0.0;
   for (const Audit::Pixel& pixel : audit.pixels()) {
@@ -84,8 +84,8 @@ TEST(Audit, TakesItsOwnNoiseOffTheError) {
 // Every second pixel of the picture is wrong by a fifth of the truth, the others are right; every
 // third is not done. The audit's noise, 0.0003 in squared relative error, is far from the target.
 TEST(Audit, FindsWhatIsDoneAndWrong) {
-  const Audit audit(source_of("negative", 3), width, height, 0.5, 4000, 5);
-  std::vector<float> mean(std::size_t(width) * height, 0.5f);
+  const Audit audit(source_of("negative", 3), audited_width, audited_height, 0.5, 4000, 5);
+  std::vector<float> mean(std::size_t(audited_width) * audited_height, 0.5f);
   std::vector<PixelState> states(mean.size(), PixelState::done);
   double done = 0.0;
   double wrong = 0.0;

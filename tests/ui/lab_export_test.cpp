@@ -107,7 +107,7 @@ TEST(ReproducingCommand, SaysAllThatIsNotAsItComes) {
   snapshot.lanes[0].policy = default_policy(EstimatorId::kl);
   snapshot.lanes[1].policy = default_policy(EstimatorId::uniform);
   const std::string plain =
-      "quartet figure cornell-checker --frames 13 --size 96x54 --integrator mis --seed 7";
+      "quartet figure cornell-checker --frames 13 --size 96x54 --seed 7 --integrator mis";
   const std::string lanes = " --lane " + lane_text(snapshot.lanes[0].policy) + " --lane " +
                             lane_text(snapshot.lanes[1].policy);
   EXPECT_EQ(reproducing_command(snapshot, {}, "cornell-checker", "out", {}),
