@@ -144,21 +144,20 @@ void check_texts(FileReader& file, std::string_view name, std::uint64_t end) {
 }
 
 void read_channels(FileReader& file, std::uint64_t end, ExrPart& part) {
-  while (file.position() < end && !read_name(file).empty()) {
+  // To the empty name, which is where OpenEXR ends as well.
+  while (!read_name(file).empty()) {
     const auto type = read_word<std::int32_t>(file);
     ++part.channels;
     part.pixel_bytes += type == 1 ? 2 : 4;  // half, else float or uint
     file.seek(file.position() + 12);        // how it is seen, and sampling
   }
   if (file.position() != end) {
-    refuse_header("its list of channels does not end where it should");
+    refuse_header("a list of channels in its header does not end where it should");
   }
 }
 
 void read_value(FileReader& file, std::string_view name, std::uint64_t end, ExrPart& part) {
-  if (name == "channels") {
-    read_channels(file, end, part);
-  } else if (name == "compression") {
+  if (name == "compression") {
     const auto kind = read_word<std::uint8_t>(file);
     part.compression =
         kind < compression_limits.size() ? compression_limits.at(kind) : unknown_compression;
@@ -191,10 +190,13 @@ ExrPart read_part(FileReader& file) {
     check_size(file, name, type, size);
     const std::uint64_t begin = file.position();
     const std::uint64_t end = begin + std::uint64_t(size);
+    // By their types, whatever their names: OpenEXR reads them to their own ends.
     if (type == "stringvector") {
       check_texts(file, name, end);
-      file.seek(begin);
+    } else if (type == "chlist") {
+      read_channels(file, end, part);
     }
+    file.seek(begin);
     read_value(file, name, end, part);
     file.seek(end);
   }

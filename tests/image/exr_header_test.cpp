@@ -68,6 +68,7 @@ std::string tiles(std::uint32_t width, std::uint32_t height) {
 }
 
 TEST(ExrHeader, AttributesMayNotClaimMoreThanFollows) {
+  using namespace std::string_literals;
   const std::string big = std::string("comment") + '\0' + "string" + '\0' + word(0x7fffffff);
   expect_refused(file_of(plain, header(4, 4, 3, big), 16),
                  "attribute 'comment' in its header claims 2147483647 bytes, and 16 follow");
@@ -81,6 +82,14 @@ TEST(ExrHeader, AttributesMayNotClaimMoreThanFollows) {
   expect_refused(file_of(plain, header(4, 4, 3, texts), 16), "holds a text of 1073741824 bytes");
   const std::string channels = attribute("channels", "chlist", std::string("Y", 2) + word(2));
   expect_refused(file_of(plain, header(4, 4, 3, channels), 16), "does not end where it should");
+  // Without its last byte OpenEXR would take the next one for the end of the list, and this walk
+  // for the end of the header.
+  const std::string unended =
+      attribute("channels", "chlist", "Y\0"s + word(2) + word(0) + word(1) + word(1));
+  expect_refused(file_of(plain, header(4, 4, 3, unended + '\0' + big), 16),
+                 "does not end where it should");
+  const std::string others = attribute("others", "chlist", "Y\0"s + word(2));
+  expect_refused(file_of(plain, header(4, 4, 3, others + big), 16), "does not end where it should");
   const std::string deep = attribute("type", "string", "deepscanline");
   expect_refused(file_of(plain, header(4, 4, 3, deep) + '\0', 16), "its pixels are deep");
   expect_refused(file_of(plain, header(4, 4, 3, std::string(300, 'n')), 16), "more than 255 bytes");
