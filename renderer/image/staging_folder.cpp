@@ -95,7 +95,8 @@ void roll_forward(const fs::path& staging, const fs::path& parent, const std::st
       names.push_back(name);
     }
   });
-  std::ranges::stable_partition(names, [&](const std::string& name) { return name != last; });
+  std::stable_partition(names.begin(), names.end(),
+                        [&](const std::string& name) { return name != last; });
   for (const std::string& name : names) {
     if (system_calls().rename((staging / name).c_str(), (parent / name).c_str()) != 0) {
       return;  // the next one may be able to
