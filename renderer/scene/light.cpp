@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/gtc/constants.hpp>
 #include <string_view>
 
+#include "renderer/image/image.h"
 #include "renderer/scene/color.h"
 #include "renderer/scene/element.h"
 #include "renderer/scene/limits.h"
+#include "renderer/scene/mesh.h"
 
 namespace quartet {
 namespace {
@@ -48,6 +51,7 @@ void point(SceneBuilder& builder, Element& element) {
   }
   builder.count_lights(element.node(), 1);
   builder.scene.points.push_back(light);
+  builder.points.push_back(element.node());
 }
 
 template <typename... Arguments>
@@ -84,6 +88,35 @@ void read_shape_light(SceneBuilder& builder, pugi::xml_node node, Shape& shape) 
 
 void read_scene_light(SceneBuilder& builder, pugi::xml_node node) {
   read_light(builder, node, scene_lights, "outside a shape");
+}
+
+void warn_of_dim_points(SceneBuilder& builder) {
+  // Below this share of the power a light is chosen by fewer than one in 65536 samples. That of an
+  // environment depends on the extent of all shapes and is left out.
+  constexpr double least_share = 0x1p-16;
+  const Scene& scene = builder.scene;
+  const auto power = [](const PointLight& light) {
+    return 4.0 * glm::pi<double>() * double(luminance(light.intensity));
+  };
+  double total = 0.0;
+  for (const PointLight& light : scene.points) {
+    total += power(light);
+  }
+  for (const Shape& shape : scene.shapes) {
+    if (shape.emits) {
+      total +=
+          glm::pi<double>() * surface_area(shape) * double(largest_value(scene, shape.radiance));
+    }
+  }
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const double share = power(scene.points[i]) / total;
+    if (share < least_share) {
+      builder.warn(builder.points[i],
+                   fmt::format("a point light with {:.2g} of the power of all lights: few samples "
+                               "choose it, and what it alone lights will be noisy",
+                               share));
+    }
+  }
 }
 
 }  // namespace quartet

@@ -97,6 +97,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneParameters& param
         "no light, expected an <emitter type=\"area\"> in a shape, or an <emitter> of type "
         "\"constant\" or \"point\"");
   }
+  warn_of_dim_points(builder);
   return std::move(scene);
 }
 

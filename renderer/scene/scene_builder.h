@@ -49,6 +49,7 @@ struct SceneBuilder {
   Scene scene;
   std::map<pugi::xml_node, int> materials;  ///< elements already read, index into scene.materials
   std::map<pugi::xml_node, int> textures;   ///< the same for scene.textures
+  std::vector<pugi::xml_node> points;       ///< where each of scene.points stands in the file
   int default_material = -1;                ///< index into scene.materials, -1 until needed
   std::set<pugi::xml_node> integrators;     ///< already read
   std::size_t triangles = 0;                ///< of all meshes

@@ -365,5 +365,20 @@ TEST(SceneFile, CanBeCancelledWhileItIsRead) {
                Cancelled);
 }
 
+TEST(SceneLimits, PointLightsThatFewSamplesChooseAreNamed) {
+  const auto warnings = [](std::string_view other) {
+    return load_body(
+               std::string(R"(<emitter type="point"><rgb name="intensity" value="1"/></emitter>
+<emitter type="point"><rgb name="intensity" value=")") +
+               std::string(other) + R"("/></emitter>)")
+        .warnings;
+  };
+  EXPECT_TRUE(warnings("60000").empty());
+  ASSERT_EQ(warnings("70000").size(), 1u);
+  EXPECT_NE(warnings("70000")[0].find("scene.xml:2: a point light with 1.4e-05 of the power"),
+            std::string::npos)
+      << warnings("70000")[0];
+}
+
 }  // namespace
 }  // namespace quartet::test
