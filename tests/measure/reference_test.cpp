@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderer/adaptive/lab.h"
 #include "renderer/image/exr.h"
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
