@@ -60,6 +60,7 @@ CLI::Option* add_number_words(CLI::App& command, const std::string& names,
                               const NumberRange<Number>& range, const std::string& description,
                               std::function<void(const std::vector<Number>&)> keep,
                               std::function<std::string()> default_text = {}) {
+  const bool shows_default = bool(default_text);
   CLI::Option* const option = command.add_option(
       names, CLI::callback_t([range, keep = std::move(keep)](const CLI::results_t& words) {
         std::vector<Number> numbers;
@@ -73,7 +74,7 @@ CLI::Option* add_number_words(CLI::App& command, const std::string& names,
         keep(numbers);
         return true;
       }),
-      description, bool(default_text), std::move(default_text));
+      description, shows_default, std::move(default_text));
   return option->type_name(std::is_integral_v<Number> ? "WHOLE" : "NUMBER")
       ->check(CLI::Validator(
           [range](std::string& text) -> std::string {

@@ -47,7 +47,7 @@ FileReader::~FileReader() {
 }
 
 /// As many bytes as one call gives; 0 at the end.
-std::size_t FileReader::read_at(std::uint64_t position, char* bytes, std::size_t size) {
+std::size_t FileReader::read_at(std::uint64_t position, char* bytes, std::size_t size) const {
   for (;;) {
     const ssize_t got = system_calls().read(file_, bytes, size, off_t(position));
     if (got >= 0) {

@@ -27,7 +27,7 @@ class FileReader {
   void read(void* bytes, std::size_t size);
 
  private:
-  std::size_t read_at(std::uint64_t position, char* bytes, std::size_t size);
+  std::size_t read_at(std::uint64_t position, char* bytes, std::size_t size) const;
 
   int file_ = -1;
   std::uint64_t size_ = 0;

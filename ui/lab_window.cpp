@@ -172,18 +172,17 @@ void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
                      state_.layout == LabLayout::grid ? lay_out_cell(ui_, panels[i], wish)
                                                       : lay_out_column(ui_, panels[i], wish));
   }
-  for (std::size_t i = 0; i < panels.size(); ++i) {
+  for (const ScreenRect& panel : panels) {
     // Only the gaps are painted: the window is cleared to the panels' colour, and fill is what
     // costs where no graphics card draws.
-    if (panels[i].right() < area.right() - 1) {
-      list.AddRectFilled({panels[i].right(), panels[i].y},
-                         {panels[i].right() + ui_.px(side_gap), panels[i].bottom()}, palette::gap);
+    if (panel.right() < area.right() - 1) {
+      list.AddRectFilled({panel.right(), panel.y},
+                         {panel.right() + ui_.px(side_gap), panel.bottom()}, palette::gap);
     }
-    if (panels[i].bottom() < area.bottom() - 1) {
-      list.AddRectFilled(
-          {panels[i].x, panels[i].bottom()},
-          {panels[i].right() + ui_.px(side_gap), panels[i].bottom() + ui_.px(side_gap)},
-          palette::gap);
+    if (panel.bottom() < area.bottom() - 1) {
+      list.AddRectFilled({panel.x, panel.bottom()},
+                         {panel.right() + ui_.px(side_gap), panel.bottom() + ui_.px(side_gap)},
+                         palette::gap);
     }
   }
 }

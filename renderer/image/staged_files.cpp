@@ -78,9 +78,10 @@ void StagedFiles::make_folder() {
        each = each.parent_path()) {
     missing.push_back(each);
   }
-  for (auto each = missing.rbegin(); each != missing.rend(); ++each) {
-    created_folders_.emplace(created_folders_.begin(), *each, Leftover(*each));
-    if (!fs::create_directory(*each, error)) {
+  std::ranges::reverse(missing);
+  for (const fs::path& each : missing) {
+    created_folders_.emplace(created_folders_.begin(), each, Leftover(each));
+    if (!fs::create_directory(each, error)) {
       created_folders_.erase(created_folders_.begin());
     }
   }

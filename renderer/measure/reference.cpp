@@ -35,7 +35,7 @@ std::string mismatch(const Reference& reference, const Scene& scene,
     return fmt::format("it shows '{}' as of hash {}, the run shows '{}' of hash {}",
                        reference.scene_name, reference.scene_hash, scene.name, hash);
   }
-  if (const std::string reason = why_not(scene, made.integrator); !reason.empty()) {
+  if (std::string reason = why_not(scene, made.integrator); !reason.empty()) {
     return reason;
   }
   if (made.camera != settings.camera) {

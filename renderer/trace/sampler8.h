@@ -30,11 +30,12 @@ class Sampler8 {
     const Word8 base = key_ + vertex_ * (Sampler::draws_per_call * 0x9e3779b9u);
     Draws draws;
     for (std::uint32_t pair = 0; pair < 2; ++pair) {
+      const std::size_t first = 2 * std::size_t(pair);
       const Word8 pair_key = Sampler::mix(base + (pair * 0x3c6ef372u + 0x5bd1e995u));
       const Word8 shuffled =
           Sampler::reverse_bits(Sampler::laine_karras(reversed_index_, pair_key));
-      draws.value[2 * pair] = scrambled(shuffled, base + 2 * pair * 0x9e3779b9u);
-      draws.value[2 * pair + 1] =
+      draws.value[first] = scrambled(shuffled, base + 2 * pair * 0x9e3779b9u);
+      draws.value[first + 1] =
           scrambled(Sampler::pascal(shuffled), base + (2 * pair + 1) * 0x9e3779b9u);
     }
     return draws;

@@ -68,7 +68,7 @@ TEST(Output, WhatCannotBePrintedIsAFailure) {
 
 /// A scene of the size of a stamp, with a name of one's choice.
 std::filesystem::path small_scene(const TempFolder& folder, const std::string& name) {
-  const std::filesystem::path path = folder / (name + ".xml");
+  std::filesystem::path path = folder / (name + ".xml");
   write_bytes_to(path, R"(<scene version="3.0.0">
   <integrator type="path"><integer name="max_depth" value="2"/></integrator>
   <sensor type="perspective">

@@ -107,8 +107,8 @@ TEST(PolicyOptions, ALaneIsReadWordByWord) {
        {"kl:multiplier=1,multiplier=2", "kl:mode=reuse,mode=unbiased", "kl:stochastic-rounding=1",
         "kl:multiplier", "kl:max-spp=0", "kl:max-spp=2147483648", "kl:multiplier=1001",
         "cycles:first=65536", "cycles:batch=1e2", "kl:+1", "kl:1e31",
-        "kl:stochastic-rounding,"
-        "stochastic-rounding"}) {
+        ("kl:stochastic-rounding,"
+         "stochastic-rounding")}) {
     EXPECT_NE(error_with({{}, {lane}}, {}).find("--lane: '" + lane), std::string::npos) << lane;
   }
 }

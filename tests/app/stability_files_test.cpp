@@ -101,8 +101,8 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
   test::expect_lines(
       bytes_of(folder / "stability.csv"),
       {
-          "case,scene,estimator,policy,tuning,thresholds,truth_spp,truth_noise,metric,"
-          "value,low,high,p",
+          ("case,scene,estimator,policy,tuning,thresholds,truth_spp,truth_noise,metric,"
+           "value,low,high,p"),
           usual + "verdict,biased,,,",
           usual + "bias,101,100.75,101.5,0.01",
           usual + "region_bias,102,101.75,102.5,0.02",
@@ -173,8 +173,8 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
       "40000,200.000000,";
   test::expect_lines(bytes_of(folder / "trials.csv"),
                      {
-                         "case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,"
-                         "seconds,samples,mean_spp,metric,value",
+                         ("case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,"
+                          "seconds,samples,mean_spp,metric,value"),
                          kl + "relmse,102",
                          kl + "worst,103",
                          kl + "fireflies,104",

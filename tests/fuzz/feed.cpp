@@ -24,7 +24,7 @@ void promise_message(std::string_view message, std::string_view subject) {
 
 std::filesystem::path scratch_file(std::string_view name, std::string_view bytes) {
   static const TempFolder folder;
-  const std::filesystem::path path = folder / std::string(name);
+  std::filesystem::path path = folder / std::string(name);
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), std::streamsize(bytes.size()));
   file.close();

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -72,7 +74,8 @@ void read_value(const std::string& word) {
   });
   succeeds<std::invalid_argument>("-D", [&] {
     for (const auto& [name, value] : parse_defines({word})) {
-      promise(word == name + "=" + value && !name.empty(), "a parameter is another: " + word);
+      promise(word == fmt::format("{}={}", name, value) && !name.empty(),
+              "a parameter is another: " + word);
     }
   });
   StopOptions stop;

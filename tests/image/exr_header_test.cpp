@@ -80,7 +80,7 @@ TEST(ExrHeader, AttributesMayNotClaimMoreThanFollows) {
                  "'zoom' in its header has 40 bytes; 4 would be right for a float");
   const std::string texts = attribute("views", "stringvector", word(3) + "abc" + word(1 << 30));
   expect_refused(file_of(plain, header(4, 4, 3, texts), 16), "holds a text of 1073741824 bytes");
-  const std::string channels = attribute("channels", "chlist", std::string("Y", 2) + word(2));
+  const std::string channels = attribute("channels", "chlist", std::string("Y\0", 2) + word(2));
   expect_refused(file_of(plain, header(4, 4, 3, channels), 16), "does not end where it should");
   // Without its last byte OpenEXR would take the next one for the end of the list, and this walk
   // for the end of the header.

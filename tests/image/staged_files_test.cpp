@@ -1,5 +1,6 @@
 #include "renderer/image/staged_files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -422,7 +423,7 @@ TEST(StagedFiles, AnyCallThatFailsLeavesOldOrNewAndSaysWhich) {
         failed = faults.happened();
         call = faults.call();
       }
-      SCOPED_TRACE(call + ": " + error);
+      SCOPED_TRACE(fmt::format("{}: {}", call, error));
       expect_set(out, error.empty() ? "new" : "old");
       EXPECT_EQ(names_in(out).size(), strangers ? 5u : 4u);
       EXPECT_EQ(names_in(folder.path()), Names{"out"});

@@ -1,5 +1,6 @@
 #include "renderer/scene/limits.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <cmath>
@@ -324,7 +325,7 @@ TEST(SceneMessages, AreOneSafeLine) {
         "<shape type=\"sphere\"><float name=\"radius\" value=\"" + steer + "\"/></shape>",
         "<shape type=\"cube\"><transform name=\"to_world\"><scale value=\"" + steer +
             "\"/></transform></shape>",
-        "<bsdf id=\"" + steer + "\"/><bsdf id=\"" + steer + "\"/>"}) {
+        fmt::format("<bsdf id=\"{0}\"/><bsdf id=\"{0}\"/>", steer)}) {
     expect_safe(error_of(body));
   }
   const Scene scene =

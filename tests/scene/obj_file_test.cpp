@@ -1,5 +1,7 @@
 #include "renderer/scene/obj_file.h"
 
+#include <fmt/format.h>
+
 #include "renderer/cancel.h"
 #include "renderer/scene/mesh.h"
 #include "tests/scene/scene_text.h"
@@ -206,8 +208,9 @@ TEST(Obj, EveryIndexIsCheckedWhereverItStands) {
   for (const std::string word :
        {"0", "1.5", "x", "1/", "1/0", "1//", "1/1/", "1/1/1/1", "/1", "1e0", "+1", "99999999999",
         "-99999999999", "1,2", "1/x/1", "1//1/"}) {
-    const std::string message = loaded.error(good + "f 2 3 " + word + "\n");
-    EXPECT_NE(message.find("mesh.obj:8: '" + word + "' is no corner of a face"), std::string::npos)
+    const std::string message = loaded.error(good + fmt::format("f 2 3 {}\n", word));
+    EXPECT_NE(message.find(fmt::format("mesh.obj:8: '{}' is no corner of a face", word)),
+              std::string::npos)
         << message;
   }
   const auto expect_missing = [&](std::string_view word, std::string_view what) {

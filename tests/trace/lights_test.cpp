@@ -311,7 +311,7 @@ TEST(Lights, ALightOfFewNumbersIsSampledAllOver) {
     }
   }
   for (const int count : parts) {
-    EXPECT_NEAR(count, places / 8, places / 16);
+    EXPECT_NEAR(count, places / 8.0, places / 16.0);
   }
 }
 

@@ -146,7 +146,7 @@ TEST(PathDecisions, DependOnNoOther) {
   const std::vector<Decisions> all = decisions_of_paths(20000);
   const std::vector<std::string> names{"pixel",  "lens",       "light1", "direction1",
                                        "light2", "direction2", "light3", "direction3"};
-  const double level = sidak_level(1e-3, double(names.size() * (names.size() - 1) / 2));
+  const double level = sidak_level(1e-3, 0.5 * double(names.size() * (names.size() - 1)));
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const ChiSquare result = dependence(all, names[i], names[j]);
