@@ -10,7 +10,7 @@ namespace {
 
 /// A scene file with what `body` holds, under a point light.
 std::string write_scene(const TempFolder& folder, const std::string& body) {
-  const std::string path = (folder.path() / "scene.xml").string();
+  std::string path = (folder.path() / "scene.xml").string();
   std::ofstream(path)
       << R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/>
             <film type="hdrfilm"><integer name="width" value="8"/>
