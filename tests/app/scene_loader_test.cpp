@@ -27,8 +27,10 @@ struct EndlessScenes {
     return [this](const SceneLoader::Order& order, const std::stop_token& stop) {
       while (order.scene == "endless") {
         begun += begun == cancelled ? 1 : 0;
-        cancelled += stop.stop_requested() ? 1 : 0;
-        check_cancelled(stop);
+        if (stop.stop_requested()) {
+          ++cancelled;
+          throw Cancelled();
+        }
         std::this_thread::yield();
       }
       return some_scene();
