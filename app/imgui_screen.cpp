@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "ui/imgui_compat.h"
 #include "ui/theme.h"
 
 namespace quartet {
@@ -33,6 +34,7 @@ void ImguiScreen::forget_fonts() {
 void ImguiScreen::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
+  give_tiny_corners_pieces();
 }
 
 void ImguiScreen::end_frame(const GlFunctions& gl, int width, int height) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <cstdint>
 
@@ -74,6 +75,13 @@ inline bool has_glyph(ImFont* font, ImWchar character) {
 inline ImTextureID texture_id(std::uintptr_t handle) {
   // A pointer up to 1.91, a number later; only one cast does both.
   return (ImTextureID)(std::intptr_t)handle;  // NOLINT(performance-no-int-to-ptr)
+}
+
+/// To be called after each NewFrame, which fills the table. A corner of almost no radius is looked
+/// up as a circle of radius 0, whose number of pieces is 0, and Dear ImGui divides by it: a widget
+/// that is a hair wider than two pixels ended the program.
+inline void give_tiny_corners_pieces() {
+  ImGui::GetDrawListSharedData()->CircleSegmentCounts[0] = IM_DRAWLIST_CIRCLE_AUTO_SEGMENT_MIN;
 }
 
 }  // namespace quartet

@@ -344,6 +344,15 @@ TEST(LabWindow, ExposureStaysWithinWhatAFloatHolds) {
   }
 }
 
+TEST(LabWindow, CornersOfAlmostNoRadiusAreDrawn) {
+  const LabHand hand;
+  ImDrawList list(ImGui::GetDrawListSharedData());
+  list._ResetForNewFrame();
+  // A hair wider than two pixels, which leaves a hair for the corners.
+  list.AddRectFilled({0, 0}, {2.0000005f, 20}, IM_COL32_WHITE, 4.0f);
+  EXPECT_GT(list.VtxBuffer.Size, 0);
+}
+
 TEST(LabWindow, IsDrawnAtAnySize) {
   LabHand hand;
   hand.key('d');
