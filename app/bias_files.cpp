@@ -78,15 +78,16 @@ std::string csv_of(const BiasReport& report) {
                     sample_use(runs.policy.use).id, thresholds_text(runs.policy));
     const double pixels = double(runs.difference.size());
     for (std::size_t k = 0; k < runs.energy.size(); ++k) {
-      csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,
+      csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,
                          report.run.settings.seed + k, report.frames, runs.seconds[k],
-                         runs.mean_spp[k] * pixels, runs.mean_spp[k], runs.energy[k]);
+                         runs.mean_rays[k] * pixels, runs.mean_spp[k] * pixels, runs.mean_spp[k],
+                         runs.energy[k]);
     }
     const Interval energy = mean_interval(runs.energy, each_rate(report));
     const auto row = [&](std::string_view metric, double value) {
-      csv += fmt::format("{},all,{},{:.6f},{:.0f},{:.6f},{},{:.9g}\n", lane, report.frames,
-                         mean_of(runs.seconds), mean_of(runs.mean_spp) * pixels,
-                         mean_of(runs.mean_spp), metric, value);
+      csv += fmt::format("{},all,{},{:.6f},{:.0f},{:.0f},{:.6f},{},{:.9g}\n", lane, report.frames,
+                         mean_of(runs.seconds), mean_of(runs.mean_rays) * pixels,
+                         mean_of(runs.mean_spp) * pixels, mean_of(runs.mean_spp), metric, value);
     };
     row("energy_less_uniform", energy.mean);
     row("energy_less_uniform_low", energy.low);

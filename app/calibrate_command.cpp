@@ -184,6 +184,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
                                              each.policy.thresholds.begin() + row.channels);
     entry["frames"] = each.result.record.frame;
     entry["mean_spp"] = each.result.mean_spp;
+    entry["rays"] = each.result.record.rays;
     entry["seconds"] = each.result.record.seconds;
     if (budget.error) {
       entry[std::string(metric(budget.error->metric).id)] = each.result.values.front();

@@ -13,6 +13,7 @@
 #include "app/run_options.h"
 #include "app/stop_options.h"
 #include "app/stop_report.h"
+#include "renderer/adaptive/effort.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/staged_files.h"
 #include "ui/lab_figure.h"
@@ -44,8 +45,9 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
                            : "";
     // Labels are UTF-8: fmt pads by what is seen.
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",
-               estimator(lane.policy.estimator).label, last.frame, double(last.samples) / pixels,
-               last.max_spp, last.seconds, 100.0 * double(last.refined) / pixels, error);
+               estimator(lane.policy.estimator).label, last.frame,
+               mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds,
+               100.0 * double(last.refined) / pixels, error);
   }
   fmt::print("images.png, images.pdf, heatmaps.png, heatmaps.pdf and the panels are in {}\n",
              out.string());

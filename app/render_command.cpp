@@ -14,6 +14,7 @@
 #include "app/run_record.h"
 #include "app/stop_options.h"
 #include "app/stop_report.h"
+#include "renderer/adaptive/effort.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
@@ -77,7 +78,7 @@ void print_summary(const std::filesystem::path& path, const Snapshot& snapshot,
                    const Reference* reference) {
   const FrameRecord& last = snapshot.lanes[0].history.back();
   fmt::print("{}: {} frames, mean {:.2f} spp, max {} spp, {:.2f} s", path.string(), last.frame,
-             double(last.samples) / double(snapshot.pixels()), last.max_spp, last.seconds);
+             mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds);
   if (reference != nullptr) {
     const Metric& row = metric(MetricId::relmse);
     fmt::print(", {} {:.4g}", row.label,

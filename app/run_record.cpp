@@ -13,6 +13,7 @@
 #include "app/csv_field.h"
 #include "app/json_text.h"
 #include "app/vector_json.h"
+#include "renderer/adaptive/effort.h"
 #include "renderer/image/views.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/sample_store.h"
@@ -26,10 +27,6 @@ using nlohmann::ordered_json;
 /// The depth as Mitsuba writes it.
 int depth_number(int max_depth) {
   return max_depth == std::numeric_limits<int>::max() ? -1 : max_depth;
-}
-
-double mean_spp(const Snapshot& snapshot, const FrameRecord& record) {
-  return double(record.samples) / double(snapshot.pixels());
 }
 
 ordered_json policy_json(const SamplingPolicy& policy) {
@@ -123,6 +120,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
   }
   if (!shown.history.empty()) {
     attributes["seconds"] = fmt::format("{:.6g}", shown.history.back().seconds);
+    attributes["rays"] = std::to_string(shown.history.back().rays);
     attributes["samples"] = std::to_string(shown.history.back().samples);
     attributes["pilotSamples"] = std::to_string(shown.history.back().pilot_samples);
   }
@@ -165,9 +163,10 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
       entry["history"].push_back({{"frame", record.frame},
                                   {"samples", record.samples},
                                   {"pilot_samples", record.pilot_samples},
-                                  {"mean_spp", mean_spp(snapshot, record)},
+                                  {"mean_spp", mean_spp(record, snapshot.pixels())},
                                   {"max_spp", record.max_spp},
                                   {"refined_pixels", record.refined},
+                                  {"rays", record.rays},
                                   {"seconds", record.seconds}});
     }
     if (snapshot.reference && !lane.history.empty()) {
@@ -196,10 +195,11 @@ std::string csv_record(const Snapshot& snapshot) {
     const SamplingPolicy& policy = lane.policy;
     std::string row;
     for (const FrameRecord& record : lane.history) {
-      row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{:.6f}", scene,
+      row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{},{:.6f}", scene,
                         estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
                         sample_use(policy.use).id, thresholds_text(policy), snapshot.settings.seed,
-                        record.frame, record.seconds, record.samples, mean_spp(snapshot, record));
+                        record.frame, record.seconds, record.rays, record.samples,
+                        mean_spp(record, snapshot.pixels()));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},pilot_samples,{}\n", row, record.pilot_samples);
       csv += fmt::format("{},refined_share,{:.6f}\n", row,

@@ -17,7 +17,8 @@ std::string_view id_of(Tuning tuning) {
 
 std::string trials_csv(const StabilityOptions& options, std::span<const CaseResult> results) {
   std::string csv =
-      "case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,seconds,samples,"
+      "case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,seconds,rays,"
+      "samples,"
       "mean_spp,metric,value\n";
   for (const CaseResult& result : results) {
     for (const Trial& trial : result.trials) {
@@ -25,14 +26,16 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
       const double pixels = double(result.width) * double(result.height) *
                             (trial.variation == Variation::resolution ? 4.0 : 1.0);
       const std::string row = fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.6f}", result.failure->id,
+          "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.0f},{:.6f}", result.failure->id,
           result.failure->scene, estimator(trial.policy.estimator).id,
           allocation(options.allocation).id, sample_use(trial.policy.use).id, id_of(trial.tuning),
           variations()[std::size_t(trial.variation)].id, thresholds_text(trial.policy), trial.seed,
-          trial.frames, outcome.seconds, outcome.mean_spp * pixels, outcome.mean_spp);
+          trial.frames, outcome.seconds, outcome.mean_rays * pixels, outcome.mean_spp * pixels,
+          outcome.mean_spp);
       for (const OutcomeColumn& column : outcome_columns()) {
         const double value = outcome.*column.value;
-        if (column.id != "seconds" && column.id != "mean_spp" && !std::isnan(value)) {
+        if (column.id != "seconds" && column.id != "mean_rays" && column.id != "mean_spp" &&
+            !std::isnan(value)) {
           csv += fmt::format("{},{},{:.9g}\n", row, column.id, value);
         }
       }

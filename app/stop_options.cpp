@@ -11,6 +11,8 @@ void add_stop_options(CLI::App& command, StopOptions& options) {
   add_number(command, "--frames", options.frames, {1, 1u << 31},
              "Stop after so many rounds of sampling; 15 if no other end is given");
   add_number(command, "--spp", options.spp, spp_range, "Stop at this mean of samples per pixel");
+  add_number(command, "--rays", options.rays, above_zero<double>,
+             "Stop at this mean of rays per pixel: an effort that is the same on every machine");
   add_number(command, "--seconds", options.seconds, above_zero<double>,
              "Stop after so much time, as if the lane had run alone");
   command
@@ -21,7 +23,7 @@ void add_stop_options(CLI::App& command, StopOptions& options) {
 }
 
 StopConditions stop_conditions(const StopOptions& options, bool has_reference) {
-  StopConditions stop{options.frames, options.spp, options.seconds, {}};
+  StopConditions stop{options.frames, options.spp, options.rays, options.seconds, {}};
   if (!options.error.empty()) {
     try {
       stop.error = parse_error_target(options.error);

@@ -16,11 +16,12 @@ inline constexpr NumberRange<double> spp_range{1e-30, double(most_spp)};
 struct StopOptions {
   std::optional<std::uint32_t> frames;
   std::optional<double> spp;
+  std::optional<double> rays;
   std::optional<double> seconds;
   std::string error;
 };
 
-/// Adds --frames, --spp, --seconds and --error, which can be combined.
+/// Adds --frames, --spp, --rays, --seconds and --error, which can be combined.
 void add_stop_options(CLI::App& command, StopOptions& options);
 
 /// As the options say: the first condition met ends a lane. Throws UsageError for an error target

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/messages.h"
+#include "renderer/adaptive/effort.h"
 #include "renderer/image/views.h"
 
 namespace quartet {
@@ -21,6 +22,9 @@ std::string conditions_text(const StopConditions& stop) {
   }
   if (stop.spp) {
     texts.push_back(fmt::format("--spp {:g}", *stop.spp));
+  }
+  if (stop.rays) {
+    texts.push_back(fmt::format("--rays {:g}", *stop.rays));
   }
   if (stop.seconds) {
     texts.push_back(fmt::format("--seconds {:g}", *stop.seconds));
@@ -51,7 +55,7 @@ void tell_if_short(const Snapshot& snapshot, const StopConditions& given) {
     if (lane.plan.total == 0 && given.any() && !is_met(given, snapshot, lane)) {
       const FrameRecord& last = lane.history.back();
       tell("{} ended after {} frames, at {:.2f} mean spp, before {}: {}", id, last.frame,
-           double(last.samples) / double(snapshot.pixels()), conditions_text(given),
+           mean_spp(last, snapshot.pixels()), conditions_text(given),
            full > 0 ? fmt::format("no pixel may have another sample; {} of {} have the {} "
                                   "that --max-spp allows",
                                   full, lane.taken.size(), most)

@@ -22,8 +22,8 @@ std::string row_head(const SweepReport& report, const SamplingPolicy& policy, st
 std::string measurement_head(const SweepReport& report, const SamplingPolicy& policy,
                              std::uint64_t seed, const Measurement& measurement) {
   const FrameRecord& record = measurement.record;
-  return fmt::format("{},{},{:.6f},{},{:.6f}", row_head(report, policy, seed), record.frame,
-                     record.seconds, record.samples, measurement.mean_spp);
+  return fmt::format("{},{},{:.6f},{},{},{:.6f}", row_head(report, policy, seed), record.frame,
+                     record.seconds, record.rays, record.samples, measurement.mean_spp);
 }
 
 void add_metrics(const SweepReport& report, const std::string& head, const Measurement& measurement,
@@ -42,6 +42,9 @@ std::string stop_text(const StopConditions& stop) {
   }
   if (stop.spp) {
     add(fmt::format("{:g} mean spp", *stop.spp));
+  }
+  if (stop.rays) {
+    add(fmt::format("{:g} mean rays a pixel", *stop.rays));
   }
   if (stop.seconds) {
     add(fmt::format("{:g} s", *stop.seconds));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/measure/metrics.h"
 #include "ui/widgets.h"
 
@@ -16,9 +18,9 @@ void fill(EqualiseForm& form, const Snapshot& snapshot) {
   const double lanes = double(snapshot.lanes.size());
   for (const LaneSnapshot& lane : snapshot.lanes) {
     const FrameRecord& last = lane.history.back();
-    form.spp += float(double(last.samples) / double(snapshot.pixels()) / lanes);
+    form.spp += float(mean_spp(last, snapshot.pixels()) / lanes);
     form.seconds += float(last.seconds / lanes);
-    form.error += lane.true_errors.empty() ? 0.0f : float(lane.true_errors.back() / lanes);
+    form.error += std::isnan(last.true_error) ? 0.0f : float(last.true_error / lanes);
   }
 }
 

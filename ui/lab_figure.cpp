@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/image/ticks.h"
 #include "ui/cairo_page.h"
 #include "ui/figure_layout.h"
@@ -16,7 +17,6 @@ namespace quartet {
 namespace {
 
 FigurePanel panel(const LaneSnapshot& lane, DisplayImage image) {
-  const double pixels = double(lane.taken.size());
   FigurePanel panel;
   panel.image = std::move(image);
   panel.title = estimator(lane.policy.estimator).label;
@@ -24,7 +24,7 @@ FigurePanel panel(const LaneSnapshot& lane, DisplayImage image) {
   if (!lane.history.empty()) {
     const FrameRecord& last = lane.history.back();
     numbers += fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
-                           double(last.samples) / pixels, last.max_spp, last.seconds);
+                           mean_spp(last, lane.taken.size()), last.max_spp, last.seconds);
   }
   panel.lines.push_back(std::move(numbers));
   const auto rejected =

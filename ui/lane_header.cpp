@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/image/ticks.h"
 #include "ui/imgui_compat.h"
 #include "ui/widgets.h"
@@ -233,7 +234,7 @@ bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
 }
 
 std::string mean_spp_text(const LabFrame& frame, const LaneSnapshot& lane) {
-  const double mean = double(lane.history.back().samples) / double(frame.snapshot->pixels());
+  const double mean = mean_spp(lane.history.back(), frame.snapshot->pixels());
   return mean < 1000.0 ? fmt::format("{:.1f} spp", mean) : fmt::format("{:.0f} spp", mean);
 }
 
@@ -281,11 +282,13 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
           : fmt::format("\nHalf of its {} samples are of the pilot run, which is not shown.",
                         last.samples);
   tooltip(frame.ui, fmt::format("Highest samples of a pixel: {}.\nSeconds that this lane would "
-                                "have taken alone, samples, estimates and plans: {:.3f}.\nPixels "
-                                "not done: {} of {}.\nSamples rejected, negative or not "
+                                "have taken alone, samples, estimates and plans: {:.3f}.\nRays of "
+                                "its samples: {}, {:.1f} a pixel.\nPixels not done: {} of "
+                                "{}.\nSamples rejected, negative or not "
                                 "finite: {}.{}",
-                                last.max_spp, last.seconds, last.refined, frame.snapshot->pixels(),
-                                rejected, pilot));
+                                last.max_spp, last.seconds, last.rays,
+                                mean_rays(last, frame.snapshot->pixels()), last.refined,
+                                frame.snapshot->pixels(), rejected, pilot));
   text_at(frame.ui.small, x, box.y, rejected > 0 ? palette::error : palette::dim, text);
 }
 

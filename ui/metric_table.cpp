@@ -53,8 +53,8 @@ std::vector<TableRow> lines_of(const LabFrame& frame) {
 
 /// The metric of the curves is known for every frame; the others follow once the lanes rest.
 double value_of(const LabFrame& frame, const TableRow& line, const Metric& row) {
-  if (row.key == frame.snapshot->metric && !line.lane->true_errors.empty()) {
-    return line.lane->true_errors.back();
+  if (row.key == frame.snapshot->metric && !line.lane->history.empty()) {
+    return line.lane->history.back().true_error;
   }
   return line.values && !line.values->empty() ? (*line.values)[row_index(row.key)] : std::nan("");
 }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
+
+#include "renderer/trace/sample_costs.h"
 
 namespace quartet {
 
@@ -12,11 +15,18 @@ struct FrameRecord {
   /// Taken so far, rejected ones and those of a pilot run included: what the lane is charged for.
   std::uint64_t samples = 0;
   std::uint64_t pilot_samples = 0;  ///< of these, the ones of a pilot, which are not shown
-  std::uint32_t max_spp = 0;        ///< of the pixel with most, without those of a pilot
-  std::uint64_t refined = 0;        ///< pixels that are not done: Plan::refined
+  /// That these samples took, counted: the same on every machine. Samples that nobody traced took
+  /// none.
+  std::uint64_t rays = 0;
+  std::uint32_t max_spp = 0;  ///< of the pixel with most, without those of a pilot
+  std::uint64_t refined = 0;  ///< pixels that are not done: Plan::refined
   /// What the lane would have taken alone on all threads, in wall-clock seconds: its samples,
   /// whoever traced them, its share of reading them, and its own estimates and plans.
   double seconds = 0.0;
+  double tracing_seconds = 0.0;  ///< of these, its samples: SampleCosts of the work that they are
+  /// Of the picture against a reference, in the metric of whoever had it measured (Lab::measure);
+  /// NaN: it was not.
+  double true_error = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The frames of a lane in bounded memory: all of them up to `most_records`, then every second one,
@@ -26,29 +36,29 @@ class FrameHistory {
  public:
   static constexpr std::size_t most_records = 4096;
 
-  /// `record.frame` must be the one after the last.
-  void push(const FrameRecord& record) {
-    if (!records_.empty() && records_.back().frame % stride_ != 0) {
-      records_.pop_back();  // kept only for being the last
-    }
-    if (records_.size() == most_records) {
-      stride_ *= 2;
-      std::erase_if(records_,
-                    [this](const FrameRecord& each) { return each.frame % stride_ != 0; });
-    }
-    records_.push_back(record);
-  }
-  void clear() {
-    records_.clear();
-    stride_ = 1;
-  }
+  /// `record.frame` must be the one after the last. Its seconds are those of the lane itself; what
+  /// tracing took is added by charge(), for `work`.
+  void push(const FrameRecord& record, const SampleCosts::Work& work);
+  void clear();
+
+  /// Charges the records for the work of their samples, all by these costs: what a record said
+  /// before is replaced. `last_only`: the others were charged by the same.
+  void charge(const SampleCosts& costs, bool last_only);
 
   std::uint32_t frames() const { return records_.empty() ? 0 : records_.back().frame; }
   FrameRecord& back() { return records_.back(); }
+  std::span<FrameRecord> records() { return records_; }
   std::span<const FrameRecord> records() const { return records_; }
 
  private:
+  /// What a record is charged for.
+  struct Charge {
+    SampleCosts::Work work;
+    double own_seconds;
+  };
+
   std::vector<FrameRecord> records_;
+  std::vector<Charge> charges_;  // of the records
   std::uint32_t stride_ = 1;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "renderer/parallel.h"
@@ -94,6 +95,7 @@ bool Lab::run_frame(std::stop_token stop) {
       return;
     }
     advance(behind);
+    charge();
     forget(shown_);
     if (pilot_) {
       forget(*pilot_);
@@ -126,6 +128,20 @@ void Lab::advance(std::uint32_t frame) {
   // One after the other, each on all threads: a lane's own time is then what it would be alone.
   for (Lane* lane : moving) {
     lane->end_frame(took / double(moving.size()));
+  }
+}
+
+/// Charges all lanes by what samples are known to take by now: also those of before, and lanes that
+/// rest, so that all can be compared and say what a replay of the same stores would say.
+void Lab::charge() {
+  SampleCosts costs = shown_.store.costs();
+  if (pilot_) {
+    costs.add(pilot_->store.costs());
+  }
+  const bool last_only = costs == charged_by_;
+  charged_by_ = costs;
+  for (Lane& lane : lanes_) {
+    lane.charge(costs, last_only);
   }
 }
 
@@ -217,6 +233,20 @@ void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics sta
     }
   }
   make_pilot();
+}
+
+void Lab::measure(const std::function<double(const Film&)>& error_of) {
+  for (Lane& lane : lanes_) {
+    if (lane.frame() > 0 && std::isnan(lane.history().back().true_error)) {
+      lane.set_true_error(error_of(lane.film()));
+    }
+  }
+}
+
+void Lab::forget_true_errors() {
+  for (Lane& lane : lanes_) {
+    lane.forget_true_errors();
+  }
 }
 
 void Lab::rewind_past(std::uint32_t frame) {

@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -63,6 +64,10 @@ class Lab {
   void set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics,
                  std::shared_ptr<const RadianceImage> reference = nullptr);
 
+  /// Writes `error_of` the picture into the last record of each lane where it is not known yet.
+  void measure(const std::function<double(const Film&)>& error_of);
+  void forget_true_errors();
+
   /// Back to frame 0, for all lanes that are past `frame`; the stores are kept.
   void rewind_past(std::uint32_t frame);
 
@@ -82,11 +87,13 @@ class Lab {
   void advance(std::uint32_t frame);
   bool trace(Stream& stream, std::uint32_t frame, std::stop_token stop);
   void forget(Stream& stream);
+  void charge();
 
   LabOptions options_;
   Stream shown_;
   std::optional<Stream> pilot_;
   std::vector<Lane> lanes_;
+  SampleCosts charged_by_;  // what all records of all lanes are charged by
   // Samples that a frame needs, first and past the last of each pixel.
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> end_;

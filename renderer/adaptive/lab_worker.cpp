@@ -117,8 +117,7 @@ void LabWorker::make_lab() {
   lab_ =
       std::make_unique<Lab>(watched(sample_source(request.scene, request.settings)),
                             request.settings.width, request.settings.height, policies(), options);
-  errors_.measure(request.reference, request.metric);
-  errors_.rewind(lab_->lanes());
+  measure_anew();
   owes_first_picture_ = request.frame > 0;
   board_.describe(*lab_);
   publish_status();
@@ -133,22 +132,30 @@ void LabWorker::change_lab() {
   FilmStatistics statistics;
   statistics.variance = request.variance;
   lab_->set_lanes(policies(), statistics, request.reference);
-  errors_.rewind(lab_->lanes());
   if (is_answered_by_shown()) {
     publish_shown_again();
     return;
   }
   lab_->rewind_past(request.frame);
-  if (errors_.reference() != request.reference || errors_.metric() != request.metric) {
-    errors_.measure(request.reference, request.metric);
-    if (request.reference) {
-      lab_->rewind_past(0);  // the frames of before are to be measured too
-    }
+  if (measure_anew() && request.reference) {
+    lab_->rewind_past(0);  // the frames of before are to be measured too
   }
-  errors_.rewind(lab_->lanes());
   replays_to_ = std::min(reached, request.frame);
   replaying_ = lab_->frame() < replays_to_;
   replay_start_ = Clock::now();
+}
+
+/// True errors are from now on as the current request has them. Returns whether that is another
+/// reference or metric, so that those of before are forgotten.
+bool LabWorker::measure_anew() {
+  const LabRequest& request = current_->request;
+  if (measured_against_ == request.reference && measured_in_ == request.metric) {
+    return false;
+  }
+  measured_against_ = request.reference;
+  measured_in_ = request.metric;
+  lab_->forget_true_errors();
+  return true;
 }
 
 /// Runs frames until the current request is answered in full, which gives null, or a newer one has
@@ -170,7 +177,11 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
       if (!lab_->run_frame(stop_.get_token())) {
         return mailbox_.take();
       }
-      errors_.update(lab_->lanes());
+      if (measured_against_) {
+        const Metric& row = metric(measured_in_);
+        lab_->measure(
+            [&](const Film& film) { return row.compute(film.image(), *measured_against_); });
+      }
       board_.describe(*lab_);
     }
     if (replaying_ && lab_->frame() >= replays_to_) {
@@ -278,14 +289,8 @@ bool LabWorker::is_answered_by_shown() const {
 
 void LabWorker::publish_lanes() {
   std::unique_ptr<Snapshot> snapshot = pool_->take();
-  const bool measured = errors_.reference() != nullptr;
-  copy_lanes(*lab_, *snapshot, measured);
-  for (std::size_t i = 0; measured && i < lab_->lanes().size(); ++i) {
-    LaneSnapshot& lane = i < snapshot->lanes.size() ? snapshot->lanes[i] : *snapshot->baseline;
-    lane.true_errors.assign(errors_.of(i).begin(), errors_.of(i).end());
-  }
-  snapshot->reference = errors_.reference();
-  snapshot->metric = errors_.metric();
+  copy_lanes(*lab_, *snapshot, measured_against_ != nullptr);
+  snapshot->metric = measured_in_;
   snapshot->scene = current_->request.scene;
   snapshot->settings = current_->request.settings;
   snapshot->reference = current_->request.reference;

@@ -11,7 +11,7 @@
 #include "renderer/adaptive/mailbox.h"
 #include "renderer/adaptive/snapshot_pool.h"
 #include "renderer/adaptive/status_board.h"
-#include "renderer/measure/error_history.h"
+#include "renderer/measure/metrics.h"
 
 namespace quartet {
 
@@ -35,6 +35,7 @@ class LabWorker {
   std::vector<SamplingPolicy> policies() const;
   void make_lab();
   void change_lab();
+  bool measure_anew();
   std::unique_ptr<Mailbox::Numbered> answer();
   void fail(const char* reason);
 
@@ -62,8 +63,10 @@ class LabWorker {
 
   std::unique_ptr<Mailbox::Numbered> current_;
   std::unique_ptr<Lab> lab_;  // of the current request
-  ErrorHistory errors_;       // of its lanes
-  std::stop_source stop_;     // of the frame under way
+  // What true errors in the records of its lanes are of.
+  std::shared_ptr<const RadianceImage> measured_against_;
+  MetricId measured_in_ = MetricId::relmse;
+  std::stop_source stop_;  // of the frame under way
   bool owes_first_picture_ = false;
 
   std::shared_ptr<const Snapshot> shown_;  // the last one published of this lab

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "renderer/adaptive/film_feed.h"
 #include "renderer/stopwatch.h"
@@ -35,19 +36,6 @@ void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_
   }
 }
 
-/// What samples of pixels [begin, end) took to trace.
-double seconds_of(const std::uint32_t* samples, const SampleStore& store, std::size_t begin,
-                  std::size_t end) {
-  const float* cost = store.seconds_per_sample().data();
-  double seconds = 0.0;
-#pragma omp simd reduction(+ : seconds)
-  for (std::size_t i = begin; i < end; ++i) {
-    // Through int, for which there are vectors.
-    seconds += double(std::int32_t(samples[i])) * double(cost[i]);
-  }
-  return seconds;
-}
-
 }  // namespace
 
 Lane::Lane(int width, int height, const SamplingPolicy& policy, const LaneInputs& inputs)
@@ -70,8 +58,9 @@ void Lane::restart(const SamplingPolicy& policy, const LaneInputs& inputs) {
   error_.clear();
   std::fill(taken_.begin(), taken_.end(), 0u);
   history_.clear();
+  work_ = {};
   own_seconds_ = 0.0;
-  replan();
+  replan(0);
 }
 
 void Lane::begin_frame(const LaneStores& stores) {
@@ -88,9 +77,12 @@ void Lane::take(const LaneStores& stores, int tile_row) {
   const auto width = std::size_t(film_.width());
   const std::size_t begin = std::size_t(tile_row) * SampleStore::tile_size * width;
   const std::size_t end = std::min(begin + SampleStore::tile_size * width, film_.size());
-  rows_[std::size_t(tile_row)] = count(stores, begin, end);
+  RowTotal& total = rows_[std::size_t(tile_row)];
+  total.max_spp = count(begin, end);
+  add_work(stores.shown, tile_row, total.work);
   take_row(film_, {stores.shown, taken_, plan_.wanted}, tile_row, looks_up_shown_);
   if (pilot_) {
+    add_work(*stores.pilot, tile_row, total.work);
     take_row(*pilot_, {*stores.pilot, taken_, plan_.wanted}, tile_row, looks_up_pilot_);
   }
 }
@@ -114,20 +106,29 @@ void Lane::end_frame(double take_seconds) {
   record.samples += pilot_ ? 2 * plan_.total : plan_.total;
   record.pilot_samples += pilot_ ? plan_.total : 0;
   record.max_spp = 0;
-  record.seconds = 0.0;
   for (const RowTotal& total : rows_) {
     record.max_spp = std::max(record.max_spp, total.max_spp);
-    record.seconds += total.seconds;
+    work_ += total.work;
   }
-  history_.push(record);
-  replan();
+  // Each sample is one unit of work beside its rays.
+  record.rays =
+      std::accumulate(work_.units.begin(), work_.units.end(), std::uint64_t(0)) - record.samples;
+  replan(record.frame);
   own_seconds_ += take_seconds + watch.seconds();
-  history_.back().refined = plan_.refined;
-  history_.back().seconds += own_seconds_;
+  record.refined = plan_.refined;
+  record.seconds = own_seconds_;
+  record.true_error = FrameRecord().true_error;
+  history_.push(record, work_);
 }
 
-/// Adds what is wanted of pixels [begin, end) to what is taken.
-Lane::RowTotal Lane::count(const LaneStores& stores, std::size_t begin, std::size_t end) {
+void Lane::forget_true_errors() {
+  for (FrameRecord& record : history_.records()) {
+    record.true_error = FrameRecord().true_error;
+  }
+}
+
+/// Adds what is wanted of pixels [begin, end) to what is taken; returns the most of a pixel.
+std::uint32_t Lane::count(std::size_t begin, std::size_t end) {
   std::uint32_t* taken = taken_.data();
   const std::uint16_t* wanted = plan_.wanted.data();
   std::uint32_t most = 0;
@@ -136,11 +137,19 @@ Lane::RowTotal Lane::count(const LaneStores& stores, std::size_t begin, std::siz
     taken[i] += wanted[i];
     most = std::max(most, taken[i]);
   }
-  double seconds = seconds_of(taken, stores.shown, begin, end);
-  if (pilot_) {
-    seconds += seconds_of(taken, *stores.pilot, begin, end);
+  return most;
+}
+
+/// Adds the work of what this frame takes of a row of tiles.
+void Lane::add_work(const SampleStore& store, int tile_row, SampleCosts::Work& work) const {
+  const auto columns = std::size_t(store.tile_columns());
+  const auto rows = std::size_t(store.tile_rows());
+  std::uint64_t* cells =
+      work.units.data() + SampleCosts::side * SampleCosts::cell(std::size_t(tile_row), rows);
+  for (std::size_t column = 0; column < columns; ++column) {
+    cells[SampleCosts::cell(column, columns)] +=
+        store.tile_work(int(column), tile_row, taken_, plan_.wanted);
   }
-  return {most, seconds};
 }
 
 void Lane::catch_up_shown(const SampleStore& store) {
@@ -153,8 +162,9 @@ void Lane::catch_up_pilot(const SampleStore& store) {
   }
 }
 
-void Lane::replan() {
-  plan_next(policy_, {film_.width(), film_.height(), error_, taken_, frame()}, plan_);
+/// Plans the frame after this one.
+void Lane::replan(std::uint32_t frame) {
+  plan_next(policy_, {film_.width(), film_.height(), error_, taken_, frame}, plan_);
 }
 
 }  // namespace quartet

@@ -55,8 +55,16 @@ class Lane {
   /// threads.
   void take(const LaneStores& stores, int tile_row);
   /// Estimates and plans, on the threads of the current TBB arena. `take_seconds` is what taking
-  /// cost.
+  /// cost. The frame's record is charged for its samples by charge().
   void end_frame(double take_seconds);
+
+  /// What its samples took is from now on what these costs say; `last_only`: all records but the
+  /// last were charged by the same.
+  void charge(const SampleCosts& costs, bool last_only) { history_.charge(costs, last_only); }
+  /// Writes the error of the picture into the last record.
+  void set_true_error(double error) { history_.back().true_error = error; }
+  /// Of all records.
+  void forget_true_errors();
 
   /// Sums up what was looked up in one of the stores, before it forgets its means, so that the lane
   /// can go on adding.
@@ -70,11 +78,12 @@ class Lane {
   /// What a row of tiles adds to a frame's record.
   struct RowTotal {
     std::uint32_t max_spp = 0;
-    double seconds = 0.0;
+    SampleCosts::Work work;  // new
   };
 
-  RowTotal count(const LaneStores& stores, std::size_t begin, std::size_t end);
-  void replan();
+  std::uint32_t count(std::size_t begin, std::size_t end);
+  void add_work(const SampleStore& store, int tile_row, SampleCosts::Work& work) const;
+  void replan(std::uint32_t frame);
 
   SamplingPolicy policy_;
   std::shared_ptr<const RadianceImage> reference_;
@@ -87,6 +96,7 @@ class Lane {
   std::vector<RowTotal> rows_;
   bool looks_up_shown_ = false;
   bool looks_up_pilot_ = false;
+  SampleCosts::Work work_;  // of all samples so far
   double own_seconds_ = 0.0;
 };
 

@@ -51,7 +51,6 @@ void copy_lane(const Lane& lane, LaneSnapshot& snapshot) {
   copy(lane.error(), snapshot.error);
   copy_variance(film, snapshot.variance);
   copy(lane.history(), snapshot.history);
-  snapshot.true_errors.clear();
   snapshot.plan = lane.plan();
   fill_histogram(lane.taken(), snapshot.sample_histogram);
   snapshot.error_histograms.resize(lane.error().size() / film.size());

@@ -27,8 +27,7 @@ struct LaneSnapshot {
   /// Of the pixel mean: red, green, blue × pixels, in radiance²; the largest float where that is
   /// less; empty where the films keep none.
   std::vector<float> variance;
-  std::vector<FrameRecord> history;              ///< one a frame; back() is the current one
-  std::vector<double> true_errors;               ///< one a frame; empty without a reference
+  std::vector<FrameRecord> history;              ///< see frame_history.h; back() is the current one
   Plan plan;                                     ///< of the next frame
   SampleHistogram sample_histogram;              ///< of `taken`
   std::vector<ErrorHistogram> error_histograms;  ///< one a channel of the estimator

@@ -10,7 +10,6 @@
 
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/metrics.h"
-#include "renderer/table.h"
 
 namespace quartet {
 namespace {
@@ -19,23 +18,13 @@ constexpr Rgba8 text_color{200, 205, 212, 255};
 constexpr Rgba8 baseline_color{222, 226, 232, 255};
 constexpr Rgba8 floor_color{236, 110, 124, 255};
 
-constexpr std::array table{
-    EffortRow{Effort::seconds, "seconds", "seconds, as if alone",
-              [](const FrameRecord& record, std::size_t) { return record.seconds; }},
-    EffortRow{Effort::mean_spp, "spp", "samples per pixel, mean",
-              [](const FrameRecord& record, std::size_t pixels) {
-                return double(record.samples) / double(pixels);
-              }},
-};
-
 /// Where a logarithmic chart can show them.
 std::vector<glm::dvec2> curve_of(const LaneSnapshot& lane, const Snapshot& snapshot,
                                  Effort effort) {
   std::vector<glm::dvec2> points;
-  const std::size_t frames = std::min(lane.true_errors.size(), lane.history.size());
-  for (std::size_t i = 0; i < frames; ++i) {
-    const double x = effort_row(effort).of(lane.history[i], snapshot.pixels());
-    const double y = lane.true_errors[i];
+  for (const FrameRecord& record : lane.history) {
+    const double x = effort_row(effort).of(record, snapshot.pixels());
+    const double y = record.true_error;
     if (x > 0.0 && y > 0.0 && std::isfinite(y)) {
       points.emplace_back(x, y);
     }
@@ -79,18 +68,6 @@ Line line_of(std::vector<glm::dvec2> points, Rgba8 color, std::string label, int
 }
 
 }  // namespace
-
-std::span<const EffortRow> efforts() {
-  return table;
-}
-
-const EffortRow& effort_row(Effort key) {
-  return row_of(efforts(), key);
-}
-
-const EffortRow& find_effort(std::string_view id) {
-  return find_row(efforts(), id, "axis");
-}
 
 Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
   const Metric& row = metric(snapshot.metric);
@@ -170,11 +147,12 @@ std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, do
 
 std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
-  if (shown.true_errors.empty() || shown.history.empty() || !(shown.true_errors.back() > 0.0)) {
+  if (shown.history.empty() || !(shown.history.back().true_error > 0.0)) {
     return std::nullopt;
   }
-  const auto uniform = baseline_error(snapshot, Effort::seconds, shown.history.back().seconds);
-  return uniform ? std::optional(*uniform / shown.true_errors.back()) : std::nullopt;
+  const FrameRecord& last = shown.history.back();
+  const auto uniform = baseline_error(snapshot, Effort::seconds, last.seconds);
+  return uniform ? std::optional(*uniform / last.true_error) : std::nullopt;
 }
 
 }  // namespace quartet

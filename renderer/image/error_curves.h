@@ -2,29 +2,12 @@
 
 #include <array>
 #include <optional>
-#include <span>
-#include <string_view>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/adaptive/snapshot.h"
 #include "renderer/image/chart.h"
 
 namespace quartet {
-
-/// What an error is charted against.
-enum class Effort { seconds, mean_spp };
-
-/// One row of the table of horizontal axes.
-struct EffortRow {
-  Effort key;
-  std::string_view id;     ///< in files
-  std::string_view label;  ///< for people, with the unit
-  double (*of)(const FrameRecord& record, std::size_t pixels);
-};
-
-std::span<const EffortRow> efforts();
-const EffortRow& effort_row(Effort key);
-/// Throws std::invalid_argument that lists the legal ids.
-const EffortRow& find_effort(std::string_view id);
 
 /// How far each lane has come against the reference and what uniform sampling does instead.
 struct ErrorCurves {

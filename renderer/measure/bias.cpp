@@ -1,4 +1,5 @@
 #include "renderer/measure/bias.h"
+#include "renderer/adaptive/effort.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +148,8 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
       const RadianceImage& other = uniform.at(uniform_spp(i));
       const FrameRecord& last = lane.history().back();
       runs[i].policy = lanes[i];
-      runs[i].mean_spp.push_back(double(last.samples) / double(shown.size()));
+      runs[i].mean_spp.push_back(mean_spp(last, shown.size()));
+      runs[i].mean_rays.push_back(mean_rays(last, shown.size()));
       runs[i].seconds.push_back(last.seconds);
       runs[i].energy.push_back(mean_luminance(shown) / mean_luminance(other) - 1.0);
       keep_most(runs[i].rejected, rejected_of(lane, own.seed));

@@ -15,14 +15,15 @@ namespace quartet {
 /// numbers and the same mean number of samples, which has no bias.
 struct BiasRuns {
   SamplingPolicy policy;
-  std::vector<double> mean_spp;  ///< one a seed; the pilot's samples included
-  std::vector<double> seconds;   ///< as if alone
-  std::vector<double> energy;    ///< mean luminance over that of uniform sampling, less 1
-  RadianceImage mean;            ///< over the seeds
-  RadianceImage uniform;         ///< the same of uniform sampling
-  ScalarImage difference;        ///< luminance of mean less that of uniform
-  ScalarImage standard_error;    ///< of `difference`, from its spread over the seeds
-  RejectedSamples rejected;      ///< of the seed that met most
+  std::vector<double> mean_spp;   ///< one a seed; the pilot's samples included
+  std::vector<double> mean_rays;  ///< a pixel, the pilot's included
+  std::vector<double> seconds;    ///< as if alone
+  std::vector<double> energy;     ///< mean luminance over that of uniform sampling, less 1
+  RadianceImage mean;             ///< over the seeds
+  RadianceImage uniform;          ///< the same of uniform sampling
+  ScalarImage difference;         ///< luminance of mean less that of uniform
+  ScalarImage standard_error;     ///< of `difference`, from its spread over the seeds
+  RejectedSamples rejected;       ///< of the seed that met most
   double noise = 0.0;  ///< variance of a picture over the seeds, mean over pixels and channels
 };
 

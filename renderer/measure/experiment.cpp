@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/parallel.h"
 
 namespace quartet {
@@ -35,7 +36,8 @@ Experiment::Experiment(SampleSource source, int width, int height, const LabOpti
 Measurement Experiment::measure(std::span<const MetricId> metrics) const {
   Measurement measurement;
   measurement.record = lane().history().back();
-  measurement.mean_spp = double(measurement.record.samples) / double(lane().film().size());
+  measurement.mean_spp = mean_spp(measurement.record, lane().film().size());
+  measurement.mean_rays = mean_rays(measurement.record, lane().film().size());
   if (!metrics.empty()) {
     const RadianceImage image = lane().film().image();
     for (const MetricId id : metrics) {

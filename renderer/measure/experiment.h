@@ -18,6 +18,7 @@ namespace quartet {
 struct Measurement {
   FrameRecord record;
   double mean_spp = 0.0;
+  double mean_rays = 0.0;      ///< a pixel
   std::vector<double> values;  ///< of the metrics that were asked for, in their order
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/adaptive/policy.h"
 
 namespace quartet {
@@ -25,6 +26,7 @@ constexpr std::array columns{
     OutcomeColumn{"off_oracle", "", &Outcome::off_oracle},
     OutcomeColumn{"region_spp", "samples", &Outcome::region_spp},
     OutcomeColumn{"rejected", "", &Outcome::rejected},
+    OutcomeColumn{"mean_rays", "rays", &Outcome::mean_rays},
 };
 
 template <class Visit>
@@ -126,7 +128,8 @@ Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
 
 void set_cost(Outcome& outcome, const Lane& lane) {
   const FrameRecord& last = lane.history().back();
-  outcome.mean_spp = double(last.samples) / double(lane.film().size());
+  outcome.mean_spp = mean_spp(last, lane.film().size());
+  outcome.mean_rays = mean_rays(last, lane.film().size());
   outcome.seconds = last.seconds;
 }
 

@@ -23,8 +23,9 @@ std::vector<PixelState> pixel_states(const Lane& lane);
 struct Outcome {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  double mean_spp = unknown;  ///< the pilot's samples included
-  double seconds = unknown;   ///< as if alone
+  double mean_spp = unknown;   ///< the pilot's samples included
+  double mean_rays = unknown;  ///< a pixel
+  double seconds = unknown;    ///< as if alone
 
   // Of the picture:
   double relmse = unknown;         ///< mean squared relative error

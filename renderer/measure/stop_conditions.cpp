@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/table.h"
 
 namespace quartet {
@@ -52,7 +53,10 @@ double StopConditions::progress(const FrameRecord& last, std::size_t pixels,
     done = std::max(done, double(last.frame) / double(*frames));
   }
   if (spp) {
-    done = std::max(done, double(last.samples) / double(pixels) / *spp);
+    done = std::max(done, mean_spp(last, pixels) / *spp);
+  }
+  if (rays) {
+    done = std::max(done, mean_rays(last, pixels) / *rays);
   }
   if (seconds) {
     done = std::max(done, last.seconds / *seconds);
@@ -84,24 +88,21 @@ double StopConditions::progress(const LaneSnapshot& lane) const {
   if (lane.history.empty()) {
     return 0.0;
   }
-  return lane.plan.total == 0 ? 1.0 : progress_at(lane, lane.history.size() - 1);
+  return lane.plan.total == 0 ? 1.0 : progress_at(lane, lane.history.back());
 }
 
-double StopConditions::progress_at(const LaneSnapshot& lane, std::size_t record) const {
-  const FrameRecord& then = lane.history[record];
-  if (error && lane.true_errors.empty()) {
-    StopConditions others = *this;
-    others.error.reset();
-    return others.progress(then, lane.taken.size(), 0.0);
+double StopConditions::progress_at(const LaneSnapshot& lane, const FrameRecord& record) const {
+  StopConditions known = *this;
+  if (std::isnan(record.true_error)) {
+    known.error.reset();
   }
-  return progress(then, lane.taken.size(), error ? lane.true_errors[record] : 0.0);
+  return known.progress(record, lane.taken.size(), record.true_error);
 }
 
 std::optional<std::uint32_t> StopConditions::end_of(const LaneSnapshot& lane) const {
-  for (std::size_t i = 0; i < lane.history.size(); ++i) {
-    const FrameRecord& record = lane.history[i];
+  for (const FrameRecord& record : lane.history) {
     const bool nothing_more = lane.plan.total == 0 && record.samples == lane.history.back().samples;
-    if (nothing_more || progress_at(lane, i) >= 1.0) {
+    if (nothing_more || progress_at(lane, record) >= 1.0) {
       return record.frame;
     }
   }

@@ -28,10 +28,11 @@ ErrorTarget parse_error_target(std::string_view text);
 struct StopConditions {
   std::optional<std::uint32_t> frames = {};
   std::optional<double> spp = {};      ///< mean over the pixels
+  std::optional<double> rays = {};     ///< mean over the pixels
   std::optional<double> seconds = {};  ///< as if alone
   std::optional<ErrorTarget> error = {};
 
-  bool any() const { return frames || spp || seconds || error; }
+  bool any() const { return frames || spp || rays || seconds || error; }
 
   /// How much of the way to the nearest end is done; 1 or more at the end. `error` is that of the
   /// lane's picture in the metric of the target, if there is one.
@@ -50,7 +51,7 @@ struct StopConditions {
   std::optional<std::uint32_t> end_of(const LaneSnapshot& lane) const;
 
  private:
-  double progress_at(const LaneSnapshot& lane, std::size_t record) const;
+  double progress_at(const LaneSnapshot& lane, const FrameRecord& record) const;
 };
 
 }  // namespace quartet

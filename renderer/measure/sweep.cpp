@@ -73,7 +73,7 @@ RunPlan uniform_plan(const SweepPlan& plan) {
               .stop = plan.stop,
               .metrics = plan.metrics,
               .measure_at = MeasureAt::powers_of_two};
-  if (run.stop.spp || run.stop.seconds || run.stop.error) {
+  if (run.stop.spp || run.stop.rays || run.stop.seconds || run.stop.error) {
     run.stop.frames.reset();
   }
   if (run.stop.spp) {
@@ -231,6 +231,7 @@ std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan&
     SweepPoint point{.policy = seeds.front().policy, .factor = seeds.front().factor};
     point.seconds = median_of(seeds, [](const SweepRun& run) { return run.end.record.seconds; });
     point.mean_spp = median_of(seeds, [](const SweepRun& run) { return run.end.mean_spp; });
+    point.mean_rays = median_of(seeds, [](const SweepRun& run) { return run.end.mean_rays; });
     set_error(point, seeds, [&](const SweepRun& run) { return run.end.values[metric]; });
     point.against_uniform = median_of(seeds, [&](const SweepRun& run) {
       const ErrorCurve& baseline = baselines[std::size_t(run.seed - result.first_seed)];
@@ -256,6 +257,7 @@ std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t me
     SweepPoint point{.policy = default_policy(EstimatorId::uniform)};
     point.seconds = median_of(seeds, [](const Measurement& m) { return m.record.seconds; });
     point.mean_spp = median_of(seeds, [](const Measurement& m) { return m.mean_spp; });
+    point.mean_rays = median_of(seeds, [](const Measurement& m) { return m.mean_rays; });
     set_error(point, seeds, [&](const Measurement& m) { return m.values[metric]; });
     point.against_uniform = 1.0;
     points.push_back(point);

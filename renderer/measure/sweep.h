@@ -45,8 +45,8 @@ struct SweepPlan {
   double high = 10.0;
   std::uint32_t seeds = 3;
   /// The end of each run. A run of the uniform baseline goes on until it has taken as many samples,
-  /// or seconds, as the dearest run may, so that it can be compared with all: frames do not end it
-  /// where another condition does.
+  /// rays or seconds, as the dearest run may, so that it can be compared with all: frames do not
+  /// end it where another condition does.
   StopConditions stop;
   std::vector<MetricId> metrics{MetricId::relmse};
 };
@@ -83,9 +83,10 @@ std::optional<SweepResult> run_sweep(const SampleWorld& world, const SweepPlan& 
 struct SweepPoint {
   SamplingPolicy policy;
   double factor = 1.0;
-  double seconds = 0.0;   ///< median
-  double mean_spp = 0.0;  ///< median
-  double error = 0.0;     ///< median
+  double seconds = 0.0;    ///< median
+  double mean_spp = 0.0;   ///< median
+  double mean_rays = 0.0;  ///< median, a pixel
+  double error = 0.0;      ///< median
   double error_low = 0.0;
   double error_high = 0.0;
   /// Median over the seeds of the error over that of uniform sampling with the same seed after the

@@ -176,6 +176,7 @@ SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::si
 std::vector<Chart> sweep_charts(const SweepSummary& summary) {
   return {
       sweep_chart(summary, &SweepPoint::seconds, "Error against time", "as-if-alone time, seconds"),
+      sweep_chart(summary, &SweepPoint::mean_rays, "Error against rays", "mean rays per pixel"),
       sweep_chart(summary, &SweepPoint::mean_spp, "Error against samples",
                   "mean samples per pixel")};
 }

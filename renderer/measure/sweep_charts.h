@@ -21,7 +21,7 @@ struct SweepSummary {
 SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::size_t metric,
                        double noise_floor);
 
-/// Error against as-if-alone seconds and against mean samples per pixel, on logarithmic axes: a
+/// Error against as-if-alone seconds, mean rays and mean samples per pixel, on logarithmic axes: a
 /// line a policy through its thresholds with a band from the lowest to the highest seed, the
 /// default threshold marked, the uniform baseline as a line of its slope through its last point,
 /// with what was measured of it as dots, and the reference's noise floor. In colours for paper.

@@ -1,5 +1,7 @@
 #include "renderer/trace/path_lanes.h"
 
+#include <algorithm>
+
 #include "renderer/trace/path.h"
 #include "renderer/trace/sampler8.h"
 
@@ -19,7 +21,7 @@ struct Paths {
   Int8 depth{};
   Int8 rays{};
   SampleJob* jobs[simd_lanes];
-  glm::vec3* results[simd_lanes];
+  std::size_t samples[simd_lanes];  // of the jobs
 
   void trace(const TraceScene& scene) {
     hit = scene.accel().closest_hit(ray, active);
@@ -28,8 +30,12 @@ struct Paths {
 
   void finish(Mask8 ended) {
     for_each_lane(ended, [&](int lane) {
-      *results[lane] = lane_of(radiance, lane);
-      jobs[lane]->work += rays[lane];
+      SampleJob& job = *jobs[lane];
+      job.radiance[samples[lane]] = lane_of(radiance, lane);
+      job.work += rays[lane];
+      if (!job.rays.empty()) {
+        job.rays[samples[lane]] = std::uint16_t(std::min(rays[lane], int(UINT16_MAX)));
+      }
     });
     active &= ~ended;
   }
@@ -53,7 +59,7 @@ struct Paths {
     depth[lane] = 1;
     rays[lane] = 1;
     jobs[lane] = other.jobs[from];
-    results[lane] = other.results[from];
+    samples[lane] = other.samples[from];
   }
 };
 
@@ -94,7 +100,7 @@ class PathQueue {
       SampleJob& job = jobs_.front();
       first_.active[made_] = -1;
       first_.jobs[made_] = &job;
-      first_.results[made_] = &job.radiance[sample_];
+      first_.samples[made_] = sample_;
       pixel[made_] = std::uint32_t(job.y) * std::uint32_t(settings_.width) + std::uint32_t(job.x);
       index[made_] = job.first + std::uint32_t(sample_);
       x[made_] = job.x;

@@ -6,9 +6,10 @@
 
 namespace quartet {
 
-glm::vec3* PlanePool::allocate() {
+template <class Plane>
+Plane* PlanePool<Plane>::allocate() {
   if (!free_.empty()) {
-    glm::vec3* plane = free_.back();
+    Plane* plane = free_.back();
     free_.pop_back();
     return plane;
   }
@@ -18,10 +19,13 @@ glm::vec3* PlanePool::allocate() {
       throw std::bad_alloc();
     }
     madvise(memory, slab_bytes, MADV_HUGEPAGE);  // a wish; without it all works, slower
-    slabs_.emplace_back(static_cast<glm::vec3*>(memory));
+    slabs_.emplace_back(static_cast<Plane*>(memory));
     uncut_ = slab_planes;
   }
-  return slabs_.back().get() + plane_values * (slab_planes - uncut_--);
+  return slabs_.back().get() + (slab_planes - uncut_--);
 }
+
+template class PlanePool<SamplePlane>;
+template class PlanePool<MeanPlane>;
 
 }  // namespace quartet

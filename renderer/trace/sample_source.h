@@ -16,6 +16,9 @@ struct SampleJob {
   int x, y;  ///< counted from the top left
   std::uint32_t first;
   std::span<glm::vec3> radiance;  ///< linear
+  /// The rays that each sample took, at most 65535; as many as samples, or empty where nobody asks.
+  /// Comes as zeros, for a source that traces none.
+  std::span<std::uint16_t> rays = {};
   /// What these samples took, above 0, in any unit that all jobs of a call share. It comes as the
   /// number of samples, for a source whose samples all take the same.
   double work = double(radiance.size());

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t batch_samples = 2048;
 // The same for looking at counts.
 constexpr std::size_t grain_checks = 1 << 15;
-constexpr std::size_t grain_tiles = grain_checks / PlanePool::plane_values;
+constexpr std::size_t grain_tiles = grain_checks / plane_values;
 
 }  // namespace
 
@@ -30,14 +30,12 @@ SampleStore::SampleStore(int width, int height, std::size_t memory_budget, bool 
       firsts_(places_.size(), 0),
       ends_(places_.size(), 0),
       prefixes_(keep_means ? places_.size() : 0),
-      seconds_per_sample_(places_.size(), 0.0f),
-      timed_(places_.size(), 0),
       has_means_(keep_means) {
   Tile empty;
   if (keep_means) {
     // Of no samples: the same for all tiles.
     empty.means = {mean_planes_.allocate()};
-    std::fill_n(empty.means.front(), PlanePool::plane_values, glm::vec3(0.0f));
+    std::ranges::fill(empty.means.front()->radiance, glm::vec3(0.0f));
   }
   const auto columns = std::uint32_t(width);
   const auto rows = std::uint32_t(height);
@@ -95,7 +93,7 @@ void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end
     tile.samples.resize(end - tile.base, nullptr);
   }
   for (std::uint32_t i = begin; i < end; ++i) {
-    glm::vec3*& plane = tile.samples[i - tile.base];
+    SamplePlane*& plane = tile.samples[i - tile.base];
     if (!plane) {
       plane = sample_planes_.allocate();
     }
@@ -211,14 +209,16 @@ void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
     count += job.count;
   }
   std::vector<glm::vec3> radiance(count);
+  std::vector<std::uint16_t> rays(count, 0);
   std::vector<SampleJob> asked;
   asked.reserve(jobs.size());
-  for (std::span<glm::vec3> rest = radiance; const Job& job : jobs) {
+  for (std::size_t begin = 0; const Job& job : jobs) {
     asked.push_back({.x = int(job.pixel) % width_,
                      .y = int(job.pixel) / width_,
                      .first = ends_[job.pixel],
-                     .radiance = rest.first(job.count)});
-    rest = rest.subspan(job.count);
+                     .radiance = std::span(radiance).subspan(begin, job.count),
+                     .rays = std::span(rays).subspan(begin, job.count)});
+    begin += job.count;
   }
   source(asked);
   double work = 0.0;
@@ -227,8 +227,12 @@ void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
     const Place place = places_[job.pixel];
     const Tile& tile = tiles_[place.tile];
     const std::span<const glm::vec3> samples = asked[i].radiance;
+    job.work = job.count;
     for (std::uint32_t k = 0; k < job.count; ++k) {
-      tile.samples[asked[i].first + k - tile.base][place.offset] = samples[k];
+      SamplePlane& plane = *tile.samples[asked[i].first + k - tile.base];
+      plane.radiance[place.offset] = samples[k];
+      plane.rays[place.offset] = asked[i].rays[k];
+      job.work += asked[i].rays[k];
       job.rejected |= !acceptable(samples[k]);
     }
     if (has_means_) {
@@ -254,7 +258,7 @@ void SampleStore::append_means(std::uint32_t pixel, std::span<const glm::vec3> s
     // An earlier pass threw after it had come here: what it made does not count.
     running = {};
     for (std::uint32_t i = 0; i < begin; ++i) {
-      const glm::vec3& sample = tile.samples[i][place.offset];
+      const glm::vec3& sample = tile.samples[i]->radiance[place.offset];
       if (acceptable(sample)) {
         running.add(sample);
       }
@@ -264,13 +268,42 @@ void SampleStore::append_means(std::uint32_t pixel, std::span<const glm::vec3> s
     if (acceptable(samples[k])) {
       running.add(samples[k]);
     }
-    tile.means[begin + k + 1][place.offset] = running.mean();
+    tile.means[begin + k + 1]->radiance[place.offset] = running.mean();
   }
   prefix = {running.sum, running.count, begin + std::uint32_t(samples.size())};
 }
 
-/// Counts what was traced and shares the pass's wall-clock time among its pixels by the ticks that
-/// each took, so that the shares add up to what a user waits.
+std::size_t SampleStore::cell_of(std::uint32_t tile) const {
+  const auto columns = std::size_t(tile_columns());
+  return SampleCosts::side * SampleCosts::cell(tile / columns, std::size_t(tile_rows())) +
+         SampleCosts::cell(tile % columns, columns);
+}
+
+std::uint64_t SampleStore::tile_work(int column, int row, std::span<const std::uint32_t> taken,
+                                     std::span<const std::uint16_t> wanted) const {
+  const auto width = std::size_t(width_);
+  const Tile& tile = tiles_[std::size_t(row) * std::size_t(tile_columns()) + std::size_t(column)];
+  const std::size_t corner = std::size_t(row * tile_size) * width + std::size_t(column * tile_size);
+  const int columns = std::min(tile_size, width_ - column * tile_size);
+  const int rows = std::min(tile_size, height_ - row * tile_size);
+  std::uint64_t work = 0;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const std::size_t pixel = corner + std::size_t(y) * width + std::size_t(x);
+      const std::size_t offset = std::size_t(y * tile_size + x);
+      const std::uint32_t count = wanted[pixel];
+      const SamplePlane* const* planes = tile.samples.data() + (taken[pixel] - count - tile.base);
+      work += count;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        work += planes[k]->rays[offset];
+      }
+    }
+  }
+  return work;
+}
+
+/// Counts what was traced and shares the pass's wall-clock time by the ticks that each pixel took,
+/// so that the shares add up to what a user waits.
 void SampleStore::finish_pass(double wall) {
   double total = 0.0;
   for (const Job& job : jobs_) {
@@ -280,6 +313,11 @@ void SampleStore::finish_pass(double wall) {
     }
   }
   const double seconds_per_tick = wall / std::max(total, 1.0);
+  for (const Job& job : jobs_) {
+    if (job.traced) {
+      costs_.add(cell_of(places_[job.pixel].tile), job.work, job.ticks * seconds_per_tick);
+    }
+  }
   std::atomic<std::uint64_t> made = 0;
   parallel_for(jobs_.size(), grain_checks, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
@@ -290,10 +328,6 @@ void SampleStore::finish_pass(double wall) {
       }
       ends_[job.pixel] += job.count;
       count += job.count;
-      timed_[job.pixel] += job.count;
-      float& mean = seconds_per_sample_[job.pixel];
-      const double seconds = job.ticks * seconds_per_tick;
-      mean += float((seconds - double(job.count) * double(mean)) / timed_[job.pixel]);
     }
     made += count;
   });
@@ -305,9 +339,9 @@ void SampleStore::finish_pass(double wall) {
 void SampleStore::forget_means() {
   has_means_ = false;
   for (Tile& tile : tiles_) {
-    tile.means = std::vector<glm::vec3*>();
+    tile.means = std::vector<MeanPlane*>();
   }
-  mean_planes_ = PlanePool();
+  mean_planes_ = {};
   prefixes_ = std::vector<Prefix>();
 }
 
@@ -336,16 +370,16 @@ void SampleStore::trim(std::span<const std::uint32_t> used) {
     for (Tile& tile : tiles_) {
       tile = {};
     }
-    sample_planes_ = PlanePool();
+    sample_planes_ = {};
   }
 }
 
 std::size_t SampleStore::bytes() const {
   std::size_t pointers = 0;
   for (const Tile& tile : tiles_) {
-    pointers += (tile.samples.capacity() + tile.means.capacity()) * sizeof(glm::vec3*);
+    pointers += (tile.samples.capacity() + tile.means.capacity()) * sizeof(void*);
   }
-  constexpr std::size_t per_pixel = sizeof(Place) + sizeof(float) + 4 * sizeof(std::uint32_t);
+  constexpr std::size_t per_pixel = sizeof(Place) + 3 * sizeof(std::uint32_t);
   return sample_planes_.bytes() + mean_planes_.bytes() + pointers + tiles_.size() * sizeof(Tile) +
          ends_.size() * per_pixel + prefixes_.size() * sizeof(Prefix);
 }

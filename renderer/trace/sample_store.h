@@ -10,6 +10,7 @@
 
 #include "renderer/trace/plane_pool.h"
 #include "renderer/trace/running_mean.h"
+#include "renderer/trace/sample_costs.h"
 #include "renderer/trace/sample_source.h"
 
 namespace quartet {
@@ -48,7 +49,7 @@ class SampleStore {
     const Place place = places_[pixel];
     const Tile& tile = tiles_[place.tile];
     for (std::uint32_t i = 0; i < out.size(); ++i) {
-      out[i] = tile.samples[begin + i - tile.base][place.offset];
+      out[i] = tile.samples[begin + i - tile.base]->radiance[place.offset];
     }
   }
 
@@ -57,7 +58,7 @@ class SampleStore {
     const Place place = places_[pixel];
     const Tile& tile = tiles_[place.tile];
     for (std::uint32_t i = 0; i < count; ++i) {
-      __builtin_prefetch(tile.samples[begin + i - tile.base] + place.offset);
+      __builtin_prefetch(tile.samples[begin + i - tile.base]->radiance + place.offset);
     }
   }
 
@@ -67,18 +68,18 @@ class SampleStore {
   /// Whether the mean of the first n samples of a pixel can be looked up for each stored n.
   bool has_means() const { return has_means_; }
 
-  static constexpr int tile_size = int(PlanePool::tile_size);
+  static constexpr int tile_size = int(plane_side);
 
   /// The means of one tile.
   struct TileMeans {
     int left, top, columns, rows;  // pixels of the picture
-    const glm::vec3* const* planes;
+    const MeanPlane* const* planes;
     /// Whether any sample of the tile was rejected, so that a mean may be of fewer than n.
     bool rejected;
 
     /// The means of n samples: element tile_size · row + column is that of a pixel. Of a pixel
     /// without samples, black.
-    const glm::vec3* of(std::uint32_t n) const { return planes[n]; }
+    const glm::vec3* of(std::uint32_t n) const { return planes[n]->radiance; }
   };
   int tile_columns() const { return (width_ + tile_size - 1) / tile_size; }
   int tile_rows() const { return (height_ + tile_size - 1) / tile_size; }
@@ -100,9 +101,12 @@ class SampleStore {
   /// Forgets samples below used[p] of each pixel, and all means, if the store is over its budget.
   void trim(std::span<const std::uint32_t> used);
 
-  /// Mean wall-clock seconds that one sample of each pixel took, with the threads that traced it
-  /// all at work. What a lane's samples cost is the sum of counts times this.
-  std::span<const float> seconds_per_sample() const { return seconds_per_sample_; }
+  /// Work of the last wanted[p] of the first taken[p] samples of the pixels of a tile, which must
+  /// be available, in the units of SampleCosts.
+  std::uint64_t tile_work(int column, int row, std::span<const std::uint32_t> taken,
+                          std::span<const std::uint16_t> wanted) const;
+  /// What all samples took that were ever traced.
+  const SampleCosts& costs() const { return costs_; }
 
   std::uint64_t traced() const { return traced_; }  ///< samples, since construction
   std::uint64_t stored() const { return stored_; }  ///< samples, now
@@ -118,8 +122,8 @@ class SampleStore {
   struct Tile {
     std::uint32_t base = 0;  // 0 while there are means
     bool rejected = false;
-    std::vector<glm::vec3*> samples;
-    std::vector<glm::vec3*> means;
+    std::vector<SamplePlane*> samples;
+    std::vector<MeanPlane*> means;
   };
 
   struct Place {
@@ -138,6 +142,7 @@ class SampleStore {
   struct Job {
     std::uint32_t pixel;
     std::uint32_t count;
+    std::uint64_t work = 0;  // in the units of SampleCosts
     double ticks = 0.0;
     bool traced = false;
     bool rejected = false;  // any of them
@@ -154,6 +159,7 @@ class SampleStore {
   void trace_batch(std::span<Job> jobs, const SampleSource& source);
   void append_means(std::uint32_t pixel, std::span<const glm::vec3> samples);
   void finish_pass(double wall);
+  std::size_t cell_of(std::uint32_t tile) const;
 
   int width_;
   int height_;
@@ -165,12 +171,11 @@ class SampleStore {
   std::vector<std::uint32_t> firsts_;
   std::vector<std::uint32_t> ends_;
   std::vector<Tile> tiles_;
-  PlanePool sample_planes_;
-  PlanePool mean_planes_;
+  PlanePool<SamplePlane> sample_planes_;
+  PlanePool<MeanPlane> mean_planes_;
   std::vector<Prefix> prefixes_;
   std::vector<Job> jobs_;  // of the pass under way; kept for its memory
-  std::vector<float> seconds_per_sample_;
-  std::vector<std::uint32_t> timed_;  // samples behind each mean of seconds
+  SampleCosts costs_;
   std::uint64_t traced_ = 0;
   std::uint64_t stored_ = 0;
   double seconds_ = 0.0;

@@ -88,6 +88,7 @@ void expect_same_state(const Lane& a, const Lane& b) {
     EXPECT_EQ(a.history()[i].samples, b.history()[i].samples);
     EXPECT_EQ(a.history()[i].refined, b.history()[i].refined);
     EXPECT_EQ(a.history()[i].max_spp, b.history()[i].max_spp);
+    EXPECT_EQ(a.history()[i].rays, b.history()[i].rays);
   }
 }
 
@@ -296,17 +297,86 @@ TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
       EXPECT_GT(lane.history()[i].samples, lane.history()[i - 1].samples);
     }
   }
-  // All samples of the store, charged once, are the time that tracing took.
-  const SampleStore& store = lab.store();
-  double charged = 0.0;
-  for (std::size_t i = 0; i < pixels; ++i) {
-    std::uint32_t most = 0;
-    for (const Lane& lane : lab.lanes()) {
-      most = std::max(most, lane.taken()[i]);
-    }
-    charged += double(most) * double(store.seconds_per_sample()[i]);
+}
+
+TEST(Lab, OneLaneAloneIsChargedForAllThatWasTraced) {
+  for (const SampleUseRow& use : sample_uses()) {
+    SamplingPolicy policy = default_policy(EstimatorId::kl);
+    policy.use = use.key;
+    Lab lab = make_lab(std::span(&policy, 1));
+    run(lab, 5);
+    const double traced =
+        lab.store().seconds() + (lab.pilot_store() ? lab.pilot_store()->seconds() : 0.0);
+    EXPECT_NEAR(lab.lanes()[0].history().back().tracing_seconds / traced, 1.0, 1e-9) << use.id;
   }
-  EXPECT_NEAR(charged / store.seconds(), 1.0, 1e-3);
+}
+
+TEST(Lab, RaysAreThoseOfTheSamplesThatALaneTook) {
+  static const auto scene =
+      std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker")));
+  RenderSettings settings = default_settings(scene->scene());
+  settings.width = width;
+  settings.height = height;
+  const CameraRays camera(settings.camera, width, height);
+  const Integrator& row = integrator(settings.integrator);
+  for (const std::size_t memory : {std::size_t(1) << 30, std::size_t(1) << 18}) {
+    Lab lab = make_lab(all_combinations(), options_with_memory(memory));
+    run(lab, 5);
+    EXPECT_EQ(lab.partial(), memory == std::size_t(1) << 18);
+    for (const Lane& lane : lab.lanes()) {
+      if (lane.policy().use != SampleUse::reuse) {
+        EXPECT_GT(lane.history().back().rays, lane.history().back().samples);
+        continue;
+      }
+      // Traced again, pixel by pixel.
+      std::uint64_t rays = 0;
+      std::vector<glm::vec3> radiance;
+      for (std::size_t i = 0; i < pixels; ++i) {
+        radiance.resize(lane.taken()[i]);
+        SampleJob job{int(i) % width, int(i) / width, 0, radiance};
+        row.trace_jobs(*scene, settings, camera, {&job, 1});
+        rays += std::uint64_t(job.work);
+      }
+      EXPECT_EQ(lane.history().back().rays, rays) << estimator(lane.policy().estimator).id;
+    }
+  }
+}
+
+TEST(Lab, AllLanesAreChargedByOneTableAfterAThresholdWentAwayAndCameBack) {
+  // Lanes in pairs, of which one is dragged; the others rest meanwhile.
+  std::vector<SamplingPolicy> policies;
+  for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl}) {
+    for (const SampleUseRow& use : sample_uses()) {
+      SamplingPolicy policy = default_policy(id);
+      policy.use = use.key;
+      policies.insert(policies.end(), {policy, policy});
+    }
+  }
+  Lab lab = make_lab(policies);
+  run(lab, 6);
+  const std::uint64_t before = lab.store().traced();
+  for (const float factor : {0.01f, 1.0f}) {
+    for (std::size_t i = 0; i < policies.size(); i += 2) {
+      SamplingPolicy dragged = policies[i];
+      for (float& threshold : dragged.thresholds) {
+        threshold *= factor;
+      }
+      lab.set_policy(i, dragged);
+    }
+    run(lab, 6);
+  }
+  EXPECT_GT(lab.store().traced(), before) << "what samples take was measured anew";
+  for (std::size_t i = 0; i < policies.size(); i += 2) {
+    const auto dragged = lab.lanes()[i].history();
+    const auto rested = lab.lanes()[i + 1].history();
+    ASSERT_EQ(dragged.size(), rested.size());
+    for (std::size_t k = 0; k < dragged.size(); ++k) {
+      EXPECT_EQ(dragged[k].tracing_seconds, rested[k].tracing_seconds) << i << ", " << k;
+      EXPECT_GT(dragged[k].seconds, dragged[k].tracing_seconds);
+      EXPECT_GT(rested[k].seconds, rested[k].tracing_seconds);
+      EXPECT_EQ(dragged[k].rays, rested[k].rays);
+    }
+  }
 }
 
 TEST(Lab, TheOracleNeedsAReferenceOfThePicturesSize) {

@@ -32,25 +32,25 @@ SampleSource dear_source(int milliseconds) {
   };
 }
 
-/// What a lane's samples took to trace.
-double tracing_of(const Lane& lane, const SampleStore& shown, const SampleStore* pilot) {
-  double seconds = 0.0;
-  for (std::size_t i = 0; i < lane.taken().size(); ++i) {
-    const double each = double(shown.seconds_per_sample()[i]) +
-                        (pilot ? double(pilot->seconds_per_sample()[i]) : 0.0);
-    seconds += double(lane.taken()[i]) * each;
-  }
-  return seconds;
-}
-
-double tracing_of(const Lab& lab, std::size_t lane) {
-  const bool has_pilot = lab.lanes()[lane].policy().use == SampleUse::unbiased;
-  return tracing_of(lab.lanes()[lane], lab.store(), has_pilot ? lab.pilot_store() : nullptr);
-}
-
 /// What a lane was charged beside the tracing of its samples.
+double own_of(const Lane& lane) {
+  return lane.history().back().seconds - lane.history().back().tracing_seconds;
+}
+
 double own_of(const Lab& lab, std::size_t lane) {
-  return lab.lanes()[lane].history().back().seconds - tracing_of(lab, lane);
+  return own_of(lab.lanes()[lane]);
+}
+
+/// The seconds of a store's samples, of which each pixel has so many.
+double tracing_of(const SampleStore& store, std::span<const std::uint32_t> counts) {
+  SampleCosts::Work work;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto cell = [](std::size_t pixel) {
+      return SampleCosts::cell(pixel / SampleStore::tile_size, timed_side / SampleStore::tile_size);
+    };
+    work.units[SampleCosts::side * cell(i / timed_side) + cell(i % timed_side)] += counts[i];
+  }
+  return store.costs().seconds(work);
 }
 
 SamplingPolicy with_use(EstimatorId id, SampleUse use) {
@@ -89,9 +89,18 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
         lane.take(stores, row);
       }
       lane.end_frame(take_seconds);
+      SampleCosts costs = shown.costs();
+      if (has_pilot) {
+        costs.add(pilot.costs());
+      }
+      lane.charge(costs, false);
+      double tracing = 0.0;
+      for (const SampleStore* store : {&shown, has_pilot ? &pilot : nullptr}) {
+        tracing += store ? tracing_of(*store, lane.taken()) : 0.0;
+      }
+      EXPECT_NEAR(lane.history().back().tracing_seconds / tracing, 1.0, 1e-9);
       reading += take_seconds;
-      const double own = lane.history().back().seconds -
-                         tracing_of(lane, shown, has_pilot ? &pilot : nullptr) - reading;
+      const double own = own_of(lane) - reading;
       EXPECT_GT(own, -time_rounding);
       EXPECT_LT(own, watch.seconds() + time_rounding);
     }
@@ -121,16 +130,14 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
             watch.seconds() - lab.store().seconds() - lab.pilot_store()->seconds() + time_rounding);
   // All samples together are charged what tracing took, none of it twice.
   for (const SampleStore* store : {&lab.store(), lab.pilot_store()}) {
-    double all = 0.0;
+    std::vector<std::uint32_t> most(timed_pixels, 0);
     for (std::size_t i = 0; i < timed_pixels; ++i) {
-      std::uint32_t most = 0;
       for (std::size_t lane = 0; lane < policies.size(); ++lane) {
         const bool takes = store == &lab.store() || policies[lane].use == SampleUse::unbiased;
-        most = takes ? std::max(most, lab.lanes()[lane].taken()[i]) : most;
+        most[i] = takes ? std::max(most[i], lab.lanes()[lane].taken()[i]) : most[i];
       }
-      all += double(most) * double(store->seconds_per_sample()[i]);
     }
-    EXPECT_NEAR(all / store->seconds(), 1.0, 1e-4);
+    EXPECT_NEAR(tracing_of(*store, most) / store->seconds(), 1.0, 1e-9);
   }
 }
 
@@ -169,13 +176,13 @@ TEST(LaneTime, ALaneThatRestsIsChargedNothing) {
   Lab lab(dear_source(1), timed_side, timed_side, policies, {});
   ASSERT_TRUE(lab.run_frame());
   ASSERT_TRUE(lab.run_frame());
-  const double first = lab.lanes()[0].history().back().seconds;
-  const double last = lab.lanes()[2].history().back().seconds;
+  const double first = own_of(lab, 0);
+  const double last = own_of(lab, 2);
   lab.set_policy(1, policies[1]);
   ASSERT_TRUE(lab.run_frame());
   EXPECT_EQ(lab.lanes()[1].frame(), 1u);
-  EXPECT_EQ(lab.lanes()[0].history().back().seconds, first);
-  EXPECT_EQ(lab.lanes()[2].history().back().seconds, last);
+  EXPECT_EQ(own_of(lab, 0), first);
+  EXPECT_EQ(own_of(lab, 2), last);
   // What it had been charged before it began again is forgotten.
   const Stopwatch watch;
   lab.set_policy(1, policies[1]);

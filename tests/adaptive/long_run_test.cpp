@@ -64,6 +64,7 @@ TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandFrames) {
   for (const Lane& lane : lab.lanes()) {
     EXPECT_EQ(lane.frame(), 100'000u);
     EXPECT_LE(lane.history().size(), FrameHistory::most_records);
+    EXPECT_EQ(lane.history().back().rays, 0u) << "nothing was traced";
     for (const std::uint32_t taken : lane.taken()) {
       EXPECT_GE(taken, 100'000u);
     }

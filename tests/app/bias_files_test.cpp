@@ -18,6 +18,7 @@ BiasRuns counted_bias(SampleUse use, float first) {
   BiasRuns runs;
   runs.policy = test::kl_policy(0.25f, use);
   runs.mean_spp = {first + 1, first + 2};
+  runs.mean_rays = {first + 6, first + 8};
   runs.seconds = {first + 3, first + 5};
   runs.energy = {0.125, 0.375};
   runs.mean = RadianceImage(2, 1, glm::vec3(first));
@@ -53,15 +54,16 @@ TEST(BiasFiles, EveryColumnAndChannelHoldsItsOwnNumber) {
   const double half = 0.125 * std::tan(0.5 * M_PI * (1.0 - rate));
   const double p = 1.0 - 2.0 / M_PI * std::atan(0.25 / 0.125);
   std::vector<std::string> expected{
-      "scene,estimator,policy,mode,thresholds,seed,frame,seconds,samples,mean_spp,metric,value"};
+      "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,metric,"
+      "value"};
   for (const auto& [mode, first] : {std::tuple{"reuse", 100}, {"unbiased", 200}, {"reuse", 300}}) {
     const std::string lane = head + mode + ",0.25,";
-    expected.push_back(fmt::format("{}40,6,{}.000000,{},{}.000000,energy_less_uniform,0.125", lane,
-                                   first + 3, 2 * (first + 1), first + 1));
-    expected.push_back(fmt::format("{}41,6,{}.000000,{},{}.000000,energy_less_uniform,0.375", lane,
-                                   first + 5, 2 * (first + 2), first + 2));
-    const std::string both =
-        fmt::format("{}all,6,{}.000000,{},{}.500000,", lane, first + 4, 2 * first + 3, first + 1);
+    expected.push_back(fmt::format("{}40,6,{}.000000,{},{},{}.000000,energy_less_uniform,0.125",
+                                   lane, first + 3, 2 * (first + 6), 2 * (first + 1), first + 1));
+    expected.push_back(fmt::format("{}41,6,{}.000000,{},{},{}.000000,energy_less_uniform,0.375",
+                                   lane, first + 5, 2 * (first + 8), 2 * (first + 2), first + 2));
+    const std::string both = fmt::format("{}all,6,{}.000000,{},{},{}.500000,", lane, first + 4,
+                                         2 * first + 14, 2 * first + 3, first + 1);
     expected.push_back(both + "energy_less_uniform,0.25");
     expected.push_back(both + fmt::format("energy_less_uniform_low,{:.9g}", 0.25 - half));
     expected.push_back(both + fmt::format("energy_less_uniform_high,{:.9g}", 0.25 + half));

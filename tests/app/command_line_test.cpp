@@ -121,12 +121,12 @@ TEST(CommandLine, FigureWritesAllItsFiles) {
   std::istringstream csv(bytes_of(out / "panels.csv"));
   std::string line;
   std::getline(csv, line);
-  EXPECT_EQ(
-      line,
-      "scene,estimator,policy,mode,thresholds,seed,frame,seconds,samples,mean_spp,metric,value");
+  EXPECT_EQ(line,
+            "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,"
+            "metric,value");
   int rows = 0;
   while (std::getline(csv, line)) {
-    EXPECT_EQ(std::ranges::count(line, ','), 11) << line;
+    EXPECT_EQ(std::ranges::count(line, ','), 12) << line;
     ++rows;
   }
   EXPECT_EQ(rows, 4 * 3 * 3);

@@ -45,14 +45,27 @@ Snapshot numbered_snapshot() {
   contrast.rejected = {4, 7};
   contrast.mean = {{{0.5f, 0.25f}, {0.125f, 1.0f}, {0.75f, 2.0f}}};
   contrast.history = {
-      {.frame = 1, .samples = 6, .pilot_samples = 3, .max_spp = 2, .refined = 1, .seconds = 0.5},
-      {.frame = 2, .samples = 10, .pilot_samples = 5, .max_spp = 4, .refined = 2, .seconds = 1.25},
+      {.frame = 1,
+       .samples = 6,
+       .pilot_samples = 3,
+       .rays = 31,
+       .max_spp = 2,
+       .refined = 1,
+       .seconds = 0.5},
+      {.frame = 2,
+       .samples = 10,
+       .pilot_samples = 5,
+       .rays = 52,
+       .max_spp = 4,
+       .refined = 2,
+       .seconds = 1.25},
   };
   LaneSnapshot& kl = snapshot.lanes[1];
   kl.policy.thresholds = {0.0625f, 0.0f, 0.0f};
   kl.policy.allocation.kind = AllocationId::batch;
   kl.mean = {{{0.25f, 0.25f}, {0.25f, 0.25f}, {0.25f, 0.25f}}};
-  kl.history = {{.frame = 3, .samples = 15, .max_spp = 13, .refined = 0, .seconds = 2.5}};
+  kl.history = {
+      {.frame = 3, .samples = 15, .rays = 77, .max_spp = 13, .refined = 0, .seconds = 2.5}};
   return snapshot;
 }
 
@@ -78,29 +91,32 @@ TEST(CsvRecord, HasEveryNumberInItsColumn) {
   EXPECT_EQ(
       lines_of(csv_record(snapshot)),
       (std::vector<std::string>{
-          "scene,estimator,policy,mode,thresholds,seed,frame,seconds,samples,mean_spp,metric,value",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,6,3.000000,max_spp,2",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,6,3.000000,"
+          "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,metric,"
+          "value",
+          scene +
+              ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,31,6,3.000000,max_spp,2",
+          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,31,6,3.000000,"
                   "pilot_samples,3",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,6,3.000000,"
+          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,31,6,3.000000,"
                   "refined_share,0.500000",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,10,5.000000,max_spp,4",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,10,5.000000,"
+          scene +
+              ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,52,10,5.000000,max_spp,4",
+          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,52,10,5.000000,"
                   "pilot_samples,5",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,10,5.000000,"
+          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,52,10,5.000000,"
                   "refined_share,1.000000",
-          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,15,7.500000,max_spp,13",
-          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,15,7.500000,pilot_samples,0",
-          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,15,7.500000,refined_share,0.000000",
+          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,77,15,7.500000,max_spp,13",
+          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,77,15,7.500000,pilot_samples,0",
+          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,77,15,7.500000,refined_share,0.000000",
       }));
 
   snapshot.reference = numbered_truth();
   std::vector<std::string> errors;
   for (const auto& row : rows_of(csv_record(snapshot))) {
-    if (row[1] == "kl" && row[10].find("spp") == std::string::npos && row[10] != "pilot_samples" &&
-        row[10] != "refined_share") {
+    if (row[1] == "kl" && row[11].find("spp") == std::string::npos && row[11] != "pilot_samples" &&
+        row[11] != "refined_share") {
       EXPECT_EQ(row[6], "3");
-      errors.push_back(row[10] + " " + row[11]);
+      errors.push_back(row[11] + " " + row[12]);
     }
   }
   std::vector<std::string> expected;
@@ -142,9 +158,9 @@ TEST(JsonRecord, HasEveryNumberUnderItsName) {
       "multiplier": 0.75, "stochastic_rounding": true, "max_spp": 4321, "rejected": 11,
       "history": [
         {"frame": 1, "samples": 6, "pilot_samples": 3, "mean_spp": 3.0, "max_spp": 2,
-         "refined_pixels": 1, "seconds": 0.5},
+         "refined_pixels": 1, "rays": 31, "seconds": 0.5},
         {"frame": 2, "samples": 10, "pilot_samples": 5, "mean_spp": 5.0, "max_spp": 4,
-         "refined_pixels": 2, "seconds": 1.25}]})"));
+         "refined_pixels": 2, "rays": 52, "seconds": 1.25}]})"));
   const RadianceImage shown = radiance_image(snapshot, 1);
   for (const Metric& row : metrics()) {
     EXPECT_DOUBLE_EQ(record.at("lanes")[1].at("metrics").at(row.id).get<double>(),

@@ -123,6 +123,7 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
           usual + "off_oracle,122,121.75,122.5,",
           usual + "region_spp,123,122.75,123.5,",
           usual + "rejected,124,123.75,124.5,",
+          usual + "mean_rays,125,124.75,125.5,",
           usual + "missed_by_audit,130,129.75,130.5,",
           usual + "audited,131,,,",
           usual + "equal_time_error,132,131.75,132.5,",
@@ -149,6 +150,7 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
           budget + "off_oracle,222,221.75,222.5,",
           budget + "region_spp,223,222.75,223.5,",
           budget + "rejected,224,223.75,224.5,",
+          budget + "mean_rays,225,224.75,225.5,",
           budget + "missed_by_audit,230,229.75,230.5,",
           budget + "audited,231,,,",
           budget + "equal_time_error,232,231.75,232.5,",
@@ -167,14 +169,14 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
   // 50 pixels, and four times as many at twice the resolution.
   const std::string kl =
       "two-valued,failures/two-valued,kl,two-level,unbiased,budget,exposure,0.25,3,6,101.000000,"
-      "5000,100.000000,";
+      "5750,5000,100.000000,";
   const std::string uniform =
       "two-valued,failures/two-valued,uniform,two-level,reuse,default,resolution,,4,7,201.000000,"
-      "40000,200.000000,";
+      "43000,40000,200.000000,";
   test::expect_lines(bytes_of(folder / "trials.csv"),
                      {
                          ("case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,"
-                          "seconds,samples,mean_spp,metric,value"),
+                          "seconds,rays,samples,mean_spp,metric,value"),
                          kl + "relmse,102",
                          kl + "worst,103",
                          kl + "fireflies,104",

@@ -51,16 +51,16 @@ TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
                                           "calibration.svg", "quartet-files.txt"}));
   const auto rows = rows_of(bytes_of(folder_.path() / "out" / "sweep.csv"));
   EXPECT_EQ(rows[0], (std::vector<std::string>{"scene", "estimator", "policy", "mode", "thresholds",
-                                               "seed", "frame", "seconds", "samples", "mean_spp",
-                                               "metric", "value"}));
+                                               "seed", "frame", "seconds", "rays", "samples",
+                                               "mean_spp", "metric", "value"}));
   std::map<std::string, int> metrics;
   std::set<std::string> seeds;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    ASSERT_EQ(rows[i].size(), 12u) << i;
+    ASSERT_EQ(rows[i].size(), 13u) << i;
     EXPECT_EQ(rows[i][0], "cornell-box");
-    metrics[rows[i][1] + " " + rows[i][10]]++;
+    metrics[rows[i][1] + " " + rows[i][11]]++;
     seeds.insert(rows[i][5]);
-    EXPECT_TRUE(std::isfinite(std::stod(rows[i][11])));
+    EXPECT_TRUE(std::isfinite(std::stod(rows[i][12])));
   }
   EXPECT_EQ(seeds, (std::set<std::string>{"0", "1"}));
   for (const std::string name : {"relmse", "mse", "flip", "oracle_distance"}) {

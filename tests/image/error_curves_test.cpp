@@ -19,14 +19,14 @@ constexpr int height = 10;
 /// `frames` frames of so many samples a pixel and seconds each, whose error is gain / samples.
 void fill(LaneSnapshot& lane, int frames, double spp, double seconds, double gain) {
   lane.history.clear();
-  lane.true_errors.clear();
   for (int frame = 1; frame <= frames; ++frame) {
     FrameRecord record;
     record.frame = std::uint32_t(frame);
     record.samples = std::uint64_t(spp * frame * width * height);
+    record.rays = 7 * record.samples;
     record.seconds = seconds * frame;
+    record.true_error = gain / (spp * frame);
     lane.history.push_back(record);
-    lane.true_errors.push_back(gain / (spp * frame));
   }
 }
 
@@ -71,7 +71,9 @@ TEST(ErrorCurves, HasALineALaneWithAPointAFrame) {
   EXPECT_EQ(line_of(chart, 0).points[2], glm::dvec2(6.0, 1.0 / 6.0));
   const Chart by_spp = error_curve_chart(example(), against(Effort::mean_spp));
   EXPECT_EQ(line_of(by_spp, 1).points[3], glm::dvec2(2.0, 0.25));
-  for (const Chart* each : {&chart, &by_spp}) {
+  const Chart by_rays = error_curve_chart(example(), against(Effort::rays));
+  EXPECT_EQ(line_of(by_rays, 1).points[3], glm::dvec2(14.0, 0.25));
+  for (const Chart* each : {&chart, &by_spp, &by_rays}) {
     EXPECT_EQ(each->x.spacing, Spacing::logarithmic);
     EXPECT_EQ(each->y.spacing, Spacing::logarithmic);
     for (const Line& line : each->lines) {
@@ -146,9 +148,9 @@ TEST(ErrorCurves, BetweenMeasuredPointsTheBaselineIsStraightInLogarithms) {
 
 TEST(ErrorCurves, ErrorsThatNoLogarithmHasAreLeftOut) {
   Snapshot snapshot = example();
-  snapshot.lanes[0].true_errors[1] = 0.0;
-  snapshot.lanes[0].true_errors[2] = INFINITY;
-  snapshot.lanes[0].true_errors[3] = std::nan("");
+  snapshot.lanes[0].history[1].true_error = 0.0;
+  snapshot.lanes[0].history[2].true_error = INFINITY;
+  snapshot.lanes[0].history[3].true_error = std::nan("");
   const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
   EXPECT_EQ(line_of(chart, 0).points.size(), 5u);
 }

@@ -130,18 +130,23 @@ TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   lane.plan.total = 40;
   for (std::uint32_t frame = 1; frame <= 12; ++frame) {
     lane.history.push_back(record(frame, 2.0 * frame, 0.1 * frame));
-    lane.true_errors.push_back(1.0 / frame);
+    lane.history.back().true_error = 1.0 / frame;
+    lane.history.back().rays = 3 * lane.history.back().samples;
   }
   expect_end(7, frames(7), lane);
   StopConditions stop;
   stop.spp = 9.0;
   expect_end(5, stop, lane);
+  stop.rays = 22.0;
+  expect_end(4, stop, lane);
   stop.seconds = 0.25;
   expect_end(3, stop, lane);
   stop = frames(12);
   stop.error = ErrorTarget{MetricId::mse, 0.125};
   expect_end(8, stop, lane);
-  lane.true_errors.clear();
+  for (FrameRecord& each : lane.history) {
+    each.true_error = std::nan("");
+  }
   expect_end(12, stop, lane);
   EXPECT_EQ(frames(13).end_of(lane), std::nullopt);
   // No pixel wants more: the lane ended with its last samples.
@@ -151,6 +156,37 @@ TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   }
   expect_end(9, frames(100), lane);
   EXPECT_EQ(frames(100).progress(lane), 1.0);
+}
+
+TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
+  // Samples that are 0 and 2 in turn, against a truth of 1: the error is 0 after every second
+  // frame and 1/frame² after the others. Of a long run, every second record is kept, then every
+  // fourth.
+  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  Lab lab(alternate, 2, 2, std::span(&policy, 1));
+  const RadianceImage truth(2, 2, glm::vec3(1.0f));
+  constexpr std::uint32_t passes = 9001;
+  while (lab.frame() < passes) {
+    ASSERT_TRUE(lab.run_frame());
+    lab.measure([&](const Film& film) {
+      // Distinct at every frame, so that a record's error tells whose it is.
+      return metric(MetricId::mse).compute(film.image(), truth) + 1.0 / lab.frame();
+    });
+  }
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
+  LaneSnapshot& lane = snapshot.lanes[0];
+  ASSERT_LE(lane.history.size(), FrameHistory::most_records);
+  for (const FrameRecord& each : lane.history) {
+    const double odd = each.frame % 2 == 1 ? 1.0 / (double(each.frame) * each.frame) : 0.0;
+    ASSERT_NEAR(each.true_error, 1.0 / each.frame + odd, 1e-6);
+  }
+  StopConditions stop;
+  stop.error = ErrorTarget{MetricId::mse, 1.0 / 6000.5};
+  const auto end = stop.end_of(lane);
+  ASSERT_TRUE(end);
+  EXPECT_GE(*end, 6001u);
+  EXPECT_LE(*end, 6004u) << "the first that is kept of those after it";
 }
 
 TEST(StopConditions, AnErrorTargetNeedsAReferenceOfTheSameSize) {

@@ -41,6 +41,7 @@ Reference single_path(const TraceScene& scene, const RenderSettings& settings,
 /// The samples of a picture, in calls of so many pixels; of pixel p, `first` and the p % 4 after.
 struct TracedPicture {
   std::vector<std::vector<glm::vec3>> radiance;
+  std::vector<std::vector<std::uint16_t>> rays;
   std::vector<double> work;
 };
 
@@ -51,11 +52,12 @@ TracedPicture render(const TraceScene& scene, const RenderSettings& settings,
   std::vector<SampleJob> jobs;
   for (int i = 0; i < settings.width * settings.height; ++i) {
     picture.radiance.emplace_back(std::size_t(i % 4), glm::vec3(-1.0f));
+    picture.rays.emplace_back(std::size_t(i % 4), std::uint16_t(0));
   }
   jobs.reserve(picture.radiance.size());
   for (int i = 0; i < settings.width * settings.height; ++i) {
-    jobs.push_back(
-        {i % settings.width, i / settings.width, first, picture.radiance[std::size_t(i)]});
+    jobs.push_back({i % settings.width, i / settings.width, first, picture.radiance[std::size_t(i)],
+                    picture.rays[std::size_t(i)]});
   }
   for (std::span<SampleJob> rest = jobs; !rest.empty();) {
     const std::size_t count = std::min(pixels_a_call, rest.size());
@@ -89,6 +91,7 @@ void expect_single_paths(const TraceScene& scene, RenderSettings settings) {
                                             i / settings.width, 5 + std::uint32_t(k));
           different += bits(one.radiance) != bits(pixel[k]);
           rays += one.rays;
+          EXPECT_EQ(picture.rays[std::size_t(i)][k], one.rays) << "pixel " << i;
         }
         EXPECT_EQ(picture.work[std::size_t(i)], double(rays)) << "pixel " << i;
       }

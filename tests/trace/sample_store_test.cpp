@@ -238,27 +238,81 @@ TEST(SampleStore, ASourceThatThrowsLeavesTheStoreUsable) {
   expect_samples(store, none, more);
 }
 
-TEST(SampleStore, SharesTheTimeOfAPassAmongItsPixels) {
-  // Two pixels, one of which takes a hundred times longer a sample.
-  SampleStore store(2, 1, plenty);
+TEST(SampleStore, SharesTheTimeOfAPassAmongTheCellsOfThePicture) {
+  // Two tiles and so two cells, in one of which a sample takes a hundred times longer, and three
+  // rays more.
+  constexpr std::size_t side = std::size_t(SampleStore::tile_size);
+  SampleStore store(2 * int(side), int(side), plenty);
   const SampleSource slow = [](std::span<SampleJob> jobs) {
     for (SampleJob& job : jobs) {
+      const bool right = std::size_t(job.x) >= side;
       std::fill(job.radiance.begin(), job.radiance.end(), glm::vec3(1.0f));
-      job.work = double(job.radiance.size()) * (job.x ? 100.0 : 1.0);
+      std::fill(job.rays.begin(), job.rays.end(), std::uint16_t(right ? 4 : 1));
+      job.work = double(job.radiance.size()) * (right ? 100.0 : 1.0);
     }
   };
-  ASSERT_TRUE(store.require(Counts{0, 0}, Counts{3, 7}, slow));
-  const auto seconds = store.seconds_per_sample();
-  EXPECT_NEAR(double(seconds[1]) / double(seconds[0]), 100.0, 1e-3);
-  EXPECT_NEAR(double(seconds[0]) * 3 + double(seconds[1]) * 7, store.seconds(),
-              1e-4 * store.seconds());
-  const double first_pass = store.seconds();
-  ASSERT_TRUE(store.require(Counts{0, 0}, Counts{9, 8}, slow));
-  EXPECT_GT(store.seconds(), first_pass);
-  // Every second of a pass is given to some sample.
-  EXPECT_NEAR(double(seconds[0]) * 9 + double(seconds[1]) * 8, store.seconds(),
-              1e-4 * store.seconds());
-  EXPECT_GT(seconds[1], seconds[0]);
+  const std::size_t size = 2 * side * side;
+  const auto work_of = [&](std::uint16_t count, int column) {
+    const Counts taken(size, count);
+    const std::vector<std::uint16_t> wanted(size, count);
+    return store.tile_work(column, 0, taken, wanted);
+  };
+  double before = 0.0;
+  for (const std::uint16_t count : {std::uint16_t(3), std::uint16_t(9)}) {
+    ASSERT_TRUE(store.require(Counts(size, 0), Counts(size, count), slow));
+    EXPECT_EQ(work_of(count, 0), side * side * count * (1 + 1));
+    EXPECT_EQ(work_of(count, 1), side * side * count * (1 + 4));
+    SampleCosts::Work left;
+    SampleCosts::Work right;
+    left.units[0] = work_of(count, 0);
+    right.units[SampleCosts::cell(1, 2)] = work_of(count, 1);
+    const double cheap = store.costs().seconds(left);
+    const double dear = store.costs().seconds(right);
+    EXPECT_NEAR(dear / cheap, 100.0, 1e-9);
+    // Every second of a pass is given to some sample.
+    EXPECT_NEAR((cheap + dear) / store.seconds(), 1.0, 1e-9);
+    EXPECT_GT(store.seconds(), before);
+    before = store.seconds();
+  }
+}
+
+TEST(SampleStore, KnowsTheRaysOfEachSampleOfEachPixel) {
+  constexpr int columns = 19;  // not whole tiles
+  constexpr int rows = 11;
+  const auto rays_of = [](int x, int y, std::uint32_t index) {
+    return std::uint16_t((std::uint32_t(x) * 7 + std::uint32_t(y) * 13 + index * 5) % 60000);
+  };
+  const SampleSource source = [&](std::span<SampleJob> jobs) {
+    for (SampleJob& job : jobs) {
+      std::fill(job.radiance.begin(), job.radiance.end(), glm::vec3(1.0f));
+      for (std::uint32_t k = 0; k < job.rays.size(); ++k) {
+        job.rays[k] = rays_of(job.x, job.y, job.first + k);
+      }
+    }
+  };
+  Counts taken;
+  std::vector<std::uint16_t> wanted;
+  for (std::uint32_t i = 0; i < columns * rows; ++i) {
+    taken.push_back(20 + i % 7);
+    wanted.push_back(std::uint16_t(i % 5));
+  }
+  for (const bool keep_means : {false, true}) {
+    SampleStore store(columns, rows, plenty, keep_means);
+    ASSERT_TRUE(store.require(Counts(taken.size(), 0), taken, source));
+    std::uint64_t work = 0;
+    for (int row = 0; row < store.tile_rows(); ++row) {
+      for (int column = 0; column < store.tile_columns(); ++column) {
+        work += store.tile_work(column, row, taken, wanted);
+      }
+    }
+    std::uint64_t expected = 0;
+    for (std::uint32_t i = 0; i < taken.size(); ++i) {
+      for (std::uint32_t k = taken[i] - wanted[i]; k < taken[i]; ++k) {
+        expected += 1u + rays_of(int(i) % columns, int(i) / columns, k);
+      }
+    }
+    EXPECT_EQ(work, expected);
+  }
 }
 
 TEST(SampleSource, OnePixelAfterTheOtherIsTimed) {

@@ -48,7 +48,10 @@ TEST(Dock, AReferenceIsComputedAndOpensItWhereThereIsRoom) {
     EXPECT_TRUE(tall.has("dock.chart"));
     EXPECT_TRUE(tall.has("table.row4")) << "four lanes and uniform sampling";
     for (const LaneSnapshot& lane : tall.snapshot().lanes) {
-      EXPECT_EQ(lane.true_errors.size(), 5u);
+      ASSERT_EQ(lane.history.size(), 5u);
+      for (const FrameRecord& record : lane.history) {
+        EXPECT_GT(record.true_error, 0.0);
+      }
     }
   }
   MeasuredHand low(1280, 720);
@@ -81,25 +84,33 @@ TEST(Dock, MetricAndAxisAreChosen) {
   hand.move(-100.0f, -100.0f);
   EXPECT_EQ(hand.state().dock.effort, Effort::mean_spp);
   EXPECT_NE(hand.pixels("dock.chart"), before);
-  const double relmse = hand.snapshot().lanes[2].true_errors.back();
+  const double relmse = hand.snapshot().lanes[2].history.back().true_error;
   hand.choose("dock.metric", "mse");
   hand.settle();
   EXPECT_EQ(hand.snapshot().metric, MetricId::mse);
-  EXPECT_NE(hand.snapshot().lanes[2].true_errors.back(), relmse);
+  EXPECT_NE(hand.snapshot().lanes[2].history.back().true_error, relmse);
+}
+
+std::vector<double> true_errors(const LaneSnapshot& lane) {
+  std::vector<double> errors;
+  for (const FrameRecord& record : lane.history) {
+    errors.push_back(record.true_error);
+  }
+  return errors;
 }
 
 TEST(Dock, ADraggedThresholdMovesItsLanesCurveAlone) {
   MeasuredHand hand;
   std::vector<std::vector<double>> before;
   for (const LaneSnapshot& lane : hand.snapshot().lanes) {
-    before.push_back(lane.true_errors);
+    before.push_back(true_errors(lane));
   }
   const auto chart = hand.pixels("dock.chart");
   hand.drag("lane1.threshold0", -40.0f);
   hand.move(-100.0f, -100.0f);
   hand.settle();
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    EXPECT_EQ(hand.snapshot().lanes[lane].true_errors != before[lane], lane == 1);
+    EXPECT_EQ(true_errors(hand.snapshot().lanes[lane]) != before[lane], lane == 1);
   }
   EXPECT_NE(hand.pixels("dock.chart"), chart);
 }

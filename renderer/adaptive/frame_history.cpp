@@ -1,0 +1,43 @@
+#include "renderer/adaptive/frame_history.h"
+
+#include <algorithm>
+
+namespace quartet {
+
+void FrameHistory::push(const FrameRecord& record, const SampleCosts::Work& work) {
+  if (!records_.empty() && records_.back().frame % stride_ != 0) {
+    records_.pop_back();  // kept only for being the last
+    charges_.pop_back();
+  }
+  if (records_.size() == most_records) {
+    stride_ *= 2;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+      if (records_[i].frame % stride_ == 0) {
+        records_[kept] = records_[i];
+        charges_[kept] = charges_[i];
+        ++kept;
+      }
+    }
+    records_.resize(kept);
+    charges_.resize(kept);
+  }
+  records_.push_back(record);
+  charges_.push_back({work, record.seconds});
+}
+
+void FrameHistory::clear() {
+  records_.clear();
+  charges_.clear();
+  stride_ = 1;
+}
+
+void FrameHistory::charge(const SampleCosts& costs, bool last_only) {
+  const std::size_t first = last_only && !records_.empty() ? records_.size() - 1 : 0;
+  for (std::size_t i = first; i < records_.size(); ++i) {
+    records_[i].tracing_seconds = costs.seconds(charges_[i].work);
+    records_[i].seconds = records_[i].tracing_seconds + charges_[i].own_seconds;
+  }
+}
+
+}  // namespace quartet
