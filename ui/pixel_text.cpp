@@ -63,7 +63,7 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
     case ViewKind::variance:
       return values.variance ? lines_of(*values.variance) : std::vector<std::string>{};
     case ViewKind::error:
-      return values.error_channels > 0 ? std::vector{short_number(values.relative_error)}
+      return values.error_channels > 0 ? std::vector{short_number(values.scaled_error)}
                                        : std::vector<std::string>{};
     case ViewKind::reference:
     case ViewKind::true_error: {
@@ -89,7 +89,7 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
 std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values,
                                         std::optional<std::uint32_t> rejected_index) {
   const std::string error = error_text(row, values);
-  const std::string times = short_number(values.relative_error);
+  const std::string times = short_number(values.scaled_error);
   std::string rejected;
   std::string briefly;
   if (values.rejected > 0) {
