@@ -99,13 +99,15 @@ std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues&
       briefly += fmt::format(" (index {})", *rejected_index);
     }
   }
+  const std::string samples = fmt::format("{} spp", values.taken);
+  const std::string state = fmt::format("{} · {}", samples, pixel_state_label(values.state));
   if (row.channels == 0) {
-    const std::string text = fmt::format("{} spp", values.taken);
-    return {text + rejected, text + rejected, text + briefly};
+    return {state + rejected, state + briefly, samples + briefly};
   }
-  return {fmt::format("{} spp · error {} = {} × threshold{}", values.taken, error, times, rejected),
-          fmt::format("{} spp · error {} ({}×){}", values.taken, error, times, rejected),
-          fmt::format("{} spp · error {}×{}", values.taken, times, briefly)};
+  return {fmt::format("{} · error {} = {} × threshold{}", state, error, times, rejected),
+          fmt::format("{} · error {} ({}×){}", state, error, times, rejected),
+          fmt::format("{} · error {}×{}", state, times, briefly),
+          fmt::format("{} · error {}×{}", samples, times, briefly)};
 }
 
 }  // namespace quartet
