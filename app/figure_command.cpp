@@ -32,7 +32,7 @@ struct FigureOptions {
 void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
   const Metric& row = metric(MetricId::relmse);
   fmt::print("{:<22} {:>7} {:>9} {:>9} {:>9} {:>9}{}\n", "estimator", "frames", "mean spp",
-             "max spp", "seconds", "refining",
+             "max spp", "seconds", "not done",
              snapshot.reference ? fmt::format(" {:>9}", row.label) : "");
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];

@@ -91,7 +91,7 @@ float dither(std::uint32_t pixel, std::uint32_t frame) {
 template <class Row>
 void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan, const Row& row) {
   const auto width = std::size_t(input.width);
-  std::atomic<std::uint64_t> refined = 0;
+  std::atomic<std::uint64_t> not_done = 0;
   parallel_for(std::size_t(input.height), plan_grain_rows, [&](std::size_t begin, std::size_t end) {
     Marks marks(policy, input);
     marks.mark(int(begin) - 1);
@@ -102,9 +102,9 @@ void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan,
       marked += marks.count(int(y));
       row(y, marks, plan.wanted.data() + y * width);
     }
-    refined += marked;
+    not_done += marked;
   });
-  plan.refined = refined;
+  plan.not_done = not_done;
 }
 
 void plan_everywhere(Plan& plan, std::uint16_t samples) {
@@ -148,15 +148,15 @@ std::uint16_t chosen(std::uint16_t asked, std::uint16_t otherwise) {
   return asked > 0 ? asked : otherwise;
 }
 
-/// A batch for every pixel that is not done, none for the others.
-void plan_not_done(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+/// As many samples for every pixel that is not done, none for the others.
+void plan_not_done(const SamplingPolicy& policy, const PlanInput& input, Plan& plan,
+                   std::uint16_t samples) {
   const auto width = std::size_t(input.width);
-  const std::uint16_t batch = chosen(policy.allocation.batch, batch_samples);
   plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
     const std::uint8_t* row = marks.row(int(y));
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
-      wanted[x] = std::uint16_t(row[x] * batch);
+      wanted[x] = std::uint16_t(row[x] * samples);
     }
   });
 }
@@ -165,10 +165,9 @@ void plan_not_done(const SamplingPolicy& policy, const PlanInput& input, Plan& p
 void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   if (input.frame == 0) {
     plan_everywhere(plan, chosen(policy.allocation.first, 1));
-  } else if (input.frame == 1) {
-    plan_not_done(policy, input, plan);
   } else {
-    plan_everywhere(plan, 0);
+    const std::uint16_t batch = chosen(policy.allocation.batch, batch_samples);
+    plan_not_done(policy, input, plan, input.frame == 1 ? batch : 0);
   }
 }
 
@@ -178,7 +177,7 @@ void plan_batch(const SamplingPolicy& policy, const PlanInput& input, Plan& plan
   if (input.frame == 0) {
     plan_everywhere(plan, chosen(policy.allocation.first, batch_samples));
   } else {
-    plan_not_done(policy, input, plan);
+    plan_not_done(policy, input, plan, chosen(policy.allocation.batch, batch_samples));
   }
 }
 
@@ -280,7 +279,7 @@ void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
   const std::size_t pixels = input.taken.size();
   plan.wanted.resize(pixels);
   plan.total = 0;
-  plan.refined = 0;
+  plan.not_done = pixels;
   if (estimator(policy.estimator).channels == 0) {
     plan_everywhere(plan, 1);  // without an error there is nothing to choose by
   } else {

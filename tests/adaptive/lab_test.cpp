@@ -336,7 +336,7 @@ TEST(Lab, TheOracleKnowsWhereThePictureIsWrong) {
   run(lab, 1);
   const Lane& lane = lab.lanes()[0];
   ASSERT_EQ(lane.taken()[0], 8u);
-  EXPECT_EQ(lane.plan().refined, 1u);
+  EXPECT_EQ(lane.plan().not_done, 1u);
   EXPECT_EQ(lane.plan().wanted[std::size_t(7) * width + 5], 8u);
   EXPECT_NEAR(lane.error()[std::size_t(7) * width + 5], 1.0, 1e-5);
 }

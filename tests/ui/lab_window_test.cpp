@@ -61,7 +61,7 @@ TEST(LabWindow, TheAxisOfErrorsStandsStillUnderADrag) {
     hand.frames(2);
     return hand.policy(1).thresholds[0];
   };
-  // Far to the left nearly all pixels are refined and the errors shrink; then back.
+  // Far to the left nearly no pixel is done and the errors shrink; then back.
   const float start = threshold_at(marker.center_x() + 6.0f);
   const float low = threshold_at(plot.x + 2.0f);
   hand.settle();
@@ -452,7 +452,7 @@ TEST(LabWindow, ASliderKeepsItsLengthWhileTheNumbersBesideItChange) {
   hand.frames(3);
   const ScreenRect before = hand.rect("lane1.threshold0");
   const float numbers = hand.rect("lane1.numbers").width;
-  hand.state().request.policies[1].thresholds[0] = 1000.0f;  // nothing is refined
+  hand.state().request.policies[1].thresholds[0] = 1000.0f;  // every pixel is done
   hand.settle();
   EXPECT_NE(hand.rect("lane1.numbers").width, numbers);
   EXPECT_EQ(hand.rect("lane1.threshold0").width, before.width);
