@@ -45,7 +45,7 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
     // Labels are UTF-8: fmt pads by what is seen.
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",
                estimator(lane.policy.estimator).label, last.frame, double(last.samples) / pixels,
-               last.max_spp, last.seconds, 100.0 * double(last.refined) / pixels, error);
+               last.max_spp, last.seconds, 100.0 * double(last.not_done) / pixels, error);
   }
   fmt::print("images.png, images.pdf, heatmaps.png, heatmaps.pdf and the panels are in {}\n",
              out.string());

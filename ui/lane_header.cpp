@@ -250,7 +250,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
     return;
   }
   const FrameRecord& last = shown->history.back();
-  const double share = 100.0 * double(last.refined) / double(frame.snapshot->pixels());
+  const double share = 100.0 * double(last.not_done) / double(frame.snapshot->pixels());
   const std::string seconds = last.seconds < 100.0 ? fmt::format("{:.2f} s", last.seconds)
                                                    : fmt::format("{:.0f} s", last.seconds);
   const std::uint64_t rejected = shown->rejected.empty() ? 0 : [&] {
@@ -284,7 +284,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
                                 "have taken alone, samples, estimates and plans: {:.3f}.\nPixels "
                                 "not done: {} of {}.\nSamples rejected, negative or not "
                                 "finite: {}.{}",
-                                last.max_spp, last.seconds, last.refined, frame.snapshot->pixels(),
+                                last.max_spp, last.seconds, last.not_done, frame.snapshot->pixels(),
                                 rejected, pilot));
   text_at(frame.ui.small, x, box.y, rejected > 0 ? palette::error : palette::dim, text);
 }

@@ -13,7 +13,7 @@ struct FrameRecord {
   std::uint64_t samples = 0;
   std::uint64_t pilot_samples = 0;  ///< of these, the ones of a pilot, which are not shown
   std::uint32_t max_spp = 0;        ///< of the pixel with most, without those of a pilot
-  std::uint64_t refined = 0;        ///< pixels that are not done: Plan::not_done
+  std::uint64_t not_done = 0;       ///< pixels: Plan::not_done
   /// What the lane would have taken alone on all threads, in wall-clock seconds: its samples,
   /// whoever traced them, its share of reading them, and its own estimates and plans.
   double seconds = 0.0;

@@ -122,7 +122,7 @@ void Lane::end_frame(double take_seconds) {
   history_.push(record);
   replan();
   own_seconds_ += take_seconds + watch.seconds();
-  history_.back().refined = plan_.not_done;
+  history_.back().not_done = plan_.not_done;
   history_.back().seconds += own_seconds_;
 }
 

@@ -86,7 +86,7 @@ void expect_same_state(const Lane& a, const Lane& b) {
   EXPECT_EQ(a.plan().wanted, b.plan().wanted);
   for (std::size_t i = 0; i < a.history().size(); ++i) {
     EXPECT_EQ(a.history()[i].samples, b.history()[i].samples);
-    EXPECT_EQ(a.history()[i].refined, b.history()[i].refined);
+    EXPECT_EQ(a.history()[i].not_done, b.history()[i].not_done);
     EXPECT_EQ(a.history()[i].max_spp, b.history()[i].max_spp);
   }
 }

@@ -99,7 +99,7 @@ inline void expect_same(const Snapshot& a, const Snapshot& b) {
       EXPECT_EQ(x.history[f].frame, y.history[f].frame);
       EXPECT_EQ(x.history[f].samples, y.history[f].samples);
       EXPECT_EQ(x.history[f].max_spp, y.history[f].max_spp);
-      EXPECT_EQ(x.history[f].refined, y.history[f].refined);
+      EXPECT_EQ(x.history[f].not_done, y.history[f].not_done);
     }
   }
 }

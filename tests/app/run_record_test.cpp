@@ -45,14 +45,14 @@ Snapshot numbered_snapshot() {
   contrast.rejected = {4, 7};
   contrast.mean = {{{0.5f, 0.25f}, {0.125f, 1.0f}, {0.75f, 2.0f}}};
   contrast.history = {
-      {.frame = 1, .samples = 6, .pilot_samples = 3, .max_spp = 2, .refined = 1, .seconds = 0.5},
-      {.frame = 2, .samples = 10, .pilot_samples = 5, .max_spp = 4, .refined = 2, .seconds = 1.25},
+      {.frame = 1, .samples = 6, .pilot_samples = 3, .max_spp = 2, .not_done = 1, .seconds = 0.5},
+      {.frame = 2, .samples = 10, .pilot_samples = 5, .max_spp = 4, .not_done = 2, .seconds = 1.25},
   };
   LaneSnapshot& kl = snapshot.lanes[1];
   kl.policy.thresholds = {0.0625f, 0.0f, 0.0f};
   kl.policy.allocation.kind = AllocationId::batch;
   kl.mean = {{{0.25f, 0.25f}, {0.25f, 0.25f}, {0.25f, 0.25f}}};
-  kl.history = {{.frame = 3, .samples = 15, .max_spp = 13, .refined = 0, .seconds = 2.5}};
+  kl.history = {{.frame = 3, .samples = 15, .max_spp = 13, .not_done = 0, .seconds = 2.5}};
   return snapshot;
 }
 

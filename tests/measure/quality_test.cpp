@@ -218,7 +218,7 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
     EXPECT_NEAR(scaled[i], most, 1e-6);
     not_done += scaled[i] > 1.0f ? 1 : 0;
   }
-  EXPECT_EQ(not_done, lane.history().back().refined);
+  EXPECT_EQ(not_done, lane.history().back().not_done);
   std::vector<float> truth(128);
   std::vector<float> oracle(128);
   for (std::size_t i = 0; i < 128; ++i) {

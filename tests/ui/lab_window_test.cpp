@@ -37,14 +37,14 @@ TEST(LabWindow, DraggingAThresholdLineReplaysItsLaneAlone) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const auto before = heatmaps(hand);
     const auto policies = hand.state().request.policies;
-    const std::uint64_t refined = hand.snapshot().lanes[lane].history.back().refined;
+    const std::uint64_t not_done = hand.snapshot().lanes[lane].history.back().not_done;
     hand.drag(lane_widget(lane, "errors.marker0"), -45.0f);
     hand.move(-100.0f, -100.0f);
     hand.settle();
     expect_only(lane, policies, hand.state().request.policies);
     EXPECT_LT(hand.policy(lane).thresholds[0], policies[lane].thresholds[0]);
     EXPECT_EQ(hand.snapshot().lanes[lane].policy, hand.policy(lane));
-    EXPECT_GT(hand.snapshot().lanes[lane].history.back().refined, refined);
+    EXPECT_GT(hand.snapshot().lanes[lane].history.back().not_done, not_done);
     expect_only(lane, before, heatmaps(hand));
   }
 }
