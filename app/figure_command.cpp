@@ -33,7 +33,7 @@ struct FigureOptions {
 void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
   const Metric& row = metric(MetricId::relmse);
   fmt::print("{:<22} {:>7} {:>9} {:>9} {:>9} {:>9}{}\n", "estimator", "frames", "mean spp",
-             "max spp", "seconds", "refining",
+             "max spp", "seconds", "not done",
              snapshot.reference ? fmt::format(" {:>9}", row.label) : "");
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
@@ -47,7 +47,7 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",
                estimator(lane.policy.estimator).label, last.frame,
                mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds,
-               100.0 * double(last.refined) / pixels, error);
+               100.0 * double(last.not_done) / pixels, error);
   }
   fmt::print("images.png, images.pdf, heatmaps.png, heatmaps.pdf and the panels are in {}\n",
              out.string());

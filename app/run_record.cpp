@@ -165,7 +165,7 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
                                   {"pilot_samples", record.pilot_samples},
                                   {"mean_spp", mean_spp(record, snapshot.pixels())},
                                   {"max_spp", record.max_spp},
-                                  {"refined_pixels", record.refined},
+                                  {"refined_pixels", record.not_done},
                                   {"rays", record.rays},
                                   {"seconds", record.seconds}});
     }
@@ -203,7 +203,7 @@ std::string csv_record(const Snapshot& snapshot) {
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},pilot_samples,{}\n", row, record.pilot_samples);
       csv += fmt::format("{},refined_share,{:.6f}\n", row,
-                         double(record.refined) / double(snapshot.pixels()));
+                         double(record.not_done) / double(snapshot.pixels()));
     }
     if (snapshot.reference && !lane.history.empty()) {
       for (const auto& [id, error] : true_errors(snapshot, i)) {

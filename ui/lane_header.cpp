@@ -251,7 +251,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
     return;
   }
   const FrameRecord& last = shown->history.back();
-  const double share = 100.0 * double(last.refined) / double(frame.snapshot->pixels());
+  const double share = 100.0 * double(last.not_done) / double(frame.snapshot->pixels());
   const std::string seconds = last.seconds < 100.0 ? fmt::format("{:.2f} s", last.seconds)
                                                    : fmt::format("{:.0f} s", last.seconds);
   const std::uint64_t rejected = shown->rejected.empty() ? 0 : [&] {
@@ -264,11 +264,11 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
   const std::string bad = rejected > 0 ? fmt::format(" · {} rejected", rejected) : "";
   const std::string text = fitting_text(
       frame.ui.small,
-      {fmt::format("max {} spp · {} as if alone · {:.1f} % still refining{}", last.max_spp, seconds,
+      {fmt::format("max {} spp · {} as if alone · {:.1f} % not done{}", last.max_spp, seconds,
                    share, bad),
-       fmt::format("max {} · {} as if alone · {:.1f} % refining{}", last.max_spp, seconds, share,
+       fmt::format("max {} · {} as if alone · {:.1f} % not done{}", last.max_spp, seconds, share,
                    bad),
-       fmt::format("max {} · {} alone · {:.0f} % refining{}", last.max_spp, seconds, share, bad),
+       fmt::format("max {} · {} alone · {:.0f} % not done{}", last.max_spp, seconds, share, bad),
        fmt::format("max {} · {} · {:.0f} %{}", last.max_spp, seconds, share, bad)},
       box.width);
   const float width = text_width(frame.ui.small, text);
@@ -287,7 +287,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
                                 "{}.\nSamples rejected, negative or not "
                                 "finite: {}.{}",
                                 last.max_spp, last.seconds, last.rays,
-                                mean_rays(last, frame.snapshot->pixels()), last.refined,
+                                mean_rays(last, frame.snapshot->pixels()), last.not_done,
                                 frame.snapshot->pixels(), rejected, pilot));
   text_at(frame.ui.small, x, box.y, rejected > 0 ? palette::error : palette::dim, text);
 }
@@ -339,8 +339,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     ScreenRect second = box.cut_top(row);
     // Of the usual numbers, not of these: a slider that grew as they change would move under the
     // mouse that drags it.
-    const float usual =
-        text_width(ui.small, "max 888 spp · 88.88 s as if alone · 88.8 % still refining");
+    const float usual = text_width(ui.small, "max 888 spp · 88.88 s as if alone · 88.8 % not done");
     ScreenRect numbers = second.cut_right(std::min(usual, 0.5f * second.width));
     numbers.y += ui.px(6.0f);
     draw_numbers(frame, lane, numbers, true);

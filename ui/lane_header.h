@@ -5,7 +5,7 @@
 namespace quartet {
 
 /// A lane's controls and numbers: estimator, policy, thresholds, mean and highest spp, seconds,
-/// share still refined. Wide enough, it takes fewer lines.
+/// share of pixels not done. Wide enough, it takes fewer lines.
 float lane_header_height(const Ui& ui, float width);
 void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box);
 

@@ -63,7 +63,7 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
     case ViewKind::variance:
       return values.variance ? lines_of(*values.variance) : std::vector<std::string>{};
     case ViewKind::error:
-      return values.error_channels > 0 ? std::vector{short_number(values.relative_error)}
+      return values.error_channels > 0 ? std::vector{short_number(values.scaled_error)}
                                        : std::vector<std::string>{};
     case ViewKind::reference:
     case ViewKind::true_error: {
@@ -89,7 +89,7 @@ std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane,
 std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values,
                                         std::optional<std::uint32_t> rejected_index) {
   const std::string error = error_text(row, values);
-  const std::string times = short_number(values.relative_error);
+  const std::string times = short_number(values.scaled_error);
   std::string rejected;
   std::string briefly;
   if (values.rejected > 0) {
@@ -99,13 +99,15 @@ std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues&
       briefly += fmt::format(" (index {})", *rejected_index);
     }
   }
+  const std::string samples = fmt::format("{} spp", values.taken);
+  const std::string state = fmt::format("{} · {}", samples, pixel_state_label(values.state));
   if (row.channels == 0) {
-    const std::string text = fmt::format("{} spp", values.taken);
-    return {text + rejected, text + rejected, text + briefly};
+    return {state + rejected, state + briefly, samples + briefly};
   }
-  return {fmt::format("{} spp · error {} = {} × threshold{}", values.taken, error, times, rejected),
-          fmt::format("{} spp · error {} ({}×){}", values.taken, error, times, rejected),
-          fmt::format("{} spp · error {}×{}", values.taken, times, briefly)};
+  return {fmt::format("{} · error {} = {} × threshold{}", state, error, times, rejected),
+          fmt::format("{} · error {} ({}×){}", state, error, times, rejected),
+          fmt::format("{} · error {}×{}", state, times, briefly),
+          fmt::format("{} · error {}×{}", samples, times, briefly)};
 }
 
 }  // namespace quartet

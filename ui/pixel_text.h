@@ -18,7 +18,7 @@ std::string three_numbers(glm::vec3 values);
 std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
                                      std::size_t other, int x, int y);
 
-/// Samples, error and rejected samples of a pixel: three texts, from the longest to the shortest.
+/// Samples, state, error and rejected samples of a pixel: from the longest text to the shortest.
 /// `rejected_index` is that of the first rejected sample, once it is known.
 std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values,
                                         std::optional<std::uint32_t> rejected_index);

@@ -18,8 +18,8 @@ struct FrameRecord {
   /// That these samples took, counted: the same on every machine. Samples that nobody traced took
   /// none.
   std::uint64_t rays = 0;
-  std::uint32_t max_spp = 0;  ///< of the pixel with most, without those of a pilot
-  std::uint64_t refined = 0;  ///< pixels that are not done: Plan::refined
+  std::uint32_t max_spp = 0;   ///< of the pixel with most, without those of a pilot
+  std::uint64_t not_done = 0;  ///< pixels: Plan::not_done
   /// What the lane would have taken alone on all threads, in wall-clock seconds: its samples,
   /// whoever traced them, its share of reading them, and its own estimates and plans.
   double seconds = 0.0;

@@ -115,7 +115,7 @@ void Lane::end_frame(double take_seconds) {
       std::accumulate(work_.units.begin(), work_.units.end(), std::uint64_t(0)) - record.samples;
   replan(record.frame);
   own_seconds_ += take_seconds + watch.seconds();
-  record.refined = plan_.refined;
+  record.not_done = plan_.not_done;
   record.seconds = own_seconds_;
   record.true_error = FrameRecord().true_error;
   history_.push(record, work_);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 
+#include "renderer/adaptive/pixel_state.h"
 #include "renderer/parallel.h"
 #include "renderer/table.h"
 
@@ -25,51 +26,29 @@ std::uint32_t sum_of(const std::uint8_t* values, std::size_t count) {
   return sum;
 }
 
-/// The pixels of each row that vote, kept for as long as rows nearby count them.
+/// The pixels of each row that are not done, kept for as long as rows nearby count them.
 class Marks {
  public:
   Marks(const SamplingPolicy& policy, const PlanInput& input)
-      : policy_(policy),
-        input_(input),
-        minimum_(minimum_samples(policy)),
+      : criterion_(policy, input.error, input.taken),
         width_(std::size_t(input.width)),
+        height_(input.height),
         marks_(4 * width_ + 2) {}
 
-  /// Marks the pixels of a row with an error above its threshold in any channel, or with too few
-  /// samples to be done; none of a row outside the picture. The two rows marked before are still
-  /// there.
+  /// Marks the pixels of a row that are not done; none of a row outside the picture. The two rows
+  /// marked before are still there.
   void mark(int y) {
-    std::uint8_t* row = marks(y);
-    std::fill_n(row, width_, std::uint8_t(0));
-    if (y < 0 || y >= input_.height) {
-      return;
-    }
-    const std::size_t pixels = width_ * std::size_t(input_.height);
-    for (int c = 0; c < estimator(policy_.estimator).channels; ++c) {
-      const float threshold = policy_.thresholds[std::size_t(c)];
-      const float* error = input_.error.data() + std::size_t(c) * pixels + std::size_t(y) * width_;
-#pragma omp simd
-      for (std::size_t x = 0; x < width_; ++x) {
-        row[x] = std::uint8_t(row[x] | std::uint8_t(error[x] > threshold));
-      }
-    }
-    if (minimum_ > 0) {
-      const std::uint32_t* taken = input_.taken.data() + std::size_t(y) * width_;
-#pragma omp simd
-      for (std::size_t x = 0; x < width_; ++x) {
-        row[x] = std::uint8_t(row[x] | std::uint8_t(taken[x] < minimum_));
-      }
+    if (y < 0 || y >= height_) {
+      std::fill_n(marks(y), width_, std::uint8_t(0));
+    } else {
+      mark_not_done(criterion_, std::size_t(y) * width_, {marks(y), width_});
     }
   }
 
-  std::uint32_t count(int y) {
-    return sum_of(row(y), width_);
-  }
+  std::uint32_t count(int y) { return sum_of(row(y), width_); }
 
   /// 1 for each pixel of a row that is marked, 0 for the others.
-  const std::uint8_t* row(int y) {
-    return marks(y);
-  }
+  const std::uint8_t* row(int y) { return marks(y); }
 
   /// Marks in the three rows around row y, with a column of zeros to the left and to the right: the
   /// votes of pixel x are the sum of elements x … x + 2.
@@ -90,10 +69,9 @@ class Marks {
     return marks_.data() + std::size_t(y + 3) % 3 * width_;
   }
 
-  const SamplingPolicy& policy_;
-  const PlanInput& input_;
-  std::uint32_t minimum_;
+  PixelCriterion criterion_;
   std::size_t width_;
+  int height_;
   std::vector<std::uint8_t> marks_;  // three rows and their sum
 };
 
@@ -108,12 +86,12 @@ float dither(std::uint32_t pixel, std::uint32_t frame) {
   return float(x >> 8) * 0x1p-24f;
 }
 
-/// Marks the pixels above their threshold, counts them as refined, and calls row(y, marks, wanted)
-/// for each row of the picture, from several threads.
+/// Marks and counts the pixels that are not done, and calls row(y, marks, wanted) for each row of
+/// the picture, from several threads.
 template <class Row>
 void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan, const Row& row) {
   const auto width = std::size_t(input.width);
-  std::atomic<std::uint64_t> refined = 0;
+  std::atomic<std::uint64_t> not_done = 0;
   parallel_for(std::size_t(input.height), plan_grain_rows, [&](std::size_t begin, std::size_t end) {
     Marks marks(policy, input);
     marks.mark(int(begin) - 1);
@@ -124,16 +102,16 @@ void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan,
       marked += marks.count(int(y));
       row(y, marks, plan.wanted.data() + y * width);
     }
-    refined += marked;
+    not_done += marked;
   });
-  plan.refined = refined;
+  plan.not_done = not_done;
 }
 
 void plan_everywhere(Plan& plan, std::uint16_t samples) {
   std::fill(plan.wanted.begin(), plan.wanted.end(), samples);
 }
 
-/// The policy of the 2021 report: every pixel above its threshold votes for itself and its up to
+/// The policy of the 2021 report: every pixel that is not done votes for itself and its up to
 /// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
 void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   if (input.frame == 0) {
@@ -170,15 +148,15 @@ std::uint16_t chosen(std::uint16_t asked, std::uint16_t otherwise) {
   return asked > 0 ? asked : otherwise;
 }
 
-/// A batch for every pixel that is not done, none for the others.
-void plan_marked(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+/// As many samples for every pixel that is not done, none for the others.
+void plan_not_done(const SamplingPolicy& policy, const PlanInput& input, Plan& plan,
+                   std::uint16_t samples) {
   const auto width = std::size_t(input.width);
-  const std::uint16_t batch = chosen(policy.allocation.batch, batch_samples);
   plan_rows(policy, input, plan, [&](std::size_t y, Marks& marks, std::uint16_t* wanted) {
     const std::uint8_t* row = marks.row(int(y));
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
-      wanted[x] = std::uint16_t(row[x] * batch);
+      wanted[x] = std::uint16_t(row[x] * samples);
     }
   });
 }
@@ -187,10 +165,9 @@ void plan_marked(const SamplingPolicy& policy, const PlanInput& input, Plan& pla
 void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   if (input.frame == 0) {
     plan_everywhere(plan, chosen(policy.allocation.first, 1));
-  } else if (input.frame == 1) {
-    plan_marked(policy, input, plan);
   } else {
-    plan_everywhere(plan, 0);
+    const std::uint16_t batch = chosen(policy.allocation.batch, batch_samples);
+    plan_not_done(policy, input, plan, input.frame == 1 ? batch : 0);
   }
 }
 
@@ -200,7 +177,7 @@ void plan_batch(const SamplingPolicy& policy, const PlanInput& input, Plan& plan
   if (input.frame == 0) {
     plan_everywhere(plan, chosen(policy.allocation.first, batch_samples));
   } else {
-    plan_marked(policy, input, plan);
+    plan_not_done(policy, input, plan, chosen(policy.allocation.batch, batch_samples));
   }
 }
 
@@ -302,7 +279,7 @@ void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
   const std::size_t pixels = input.taken.size();
   plan.wanted.resize(pixels);
   plan.total = 0;
-  plan.refined = 0;
+  plan.not_done = pixels;
   if (estimator(policy.estimator).channels == 0) {
     plan_everywhere(plan, 1);  // without an error there is nothing to choose by
   } else {

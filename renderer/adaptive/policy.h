@@ -65,9 +65,8 @@ struct PlanInput {
 struct Plan {
   std::vector<std::uint16_t> wanted;
   std::uint64_t total = 0;  ///< sum of `wanted`
-  /// Pixels that are not done by themselves: their own error is above a threshold, or they have
-  /// fewer samples than their estimator asks for.
-  std::uint64_t refined = 0;
+  /// Pixels that are not done, whether they get samples or not; all of them before the first frame.
+  std::uint64_t not_done = 0;
 };
 
 /// Samples below which no pixel is done, whatever its error: as the estimator has it.

@@ -185,7 +185,7 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
   }
   chart.y = linear_axis(0.0, 1.15 * highest, "% of pixels", 2);
   chart.texts.push_back(top_right(
-      fmt::format("{:.0f} % of pixels will be refined", percent(shown.plan.refined, pixels))));
+      fmt::format("{:.0f} % of pixels are not done", percent(shown.plan.not_done, pixels))));
   if (const std::string note = error_note(shown, pixels); !note.empty()) {
     chart.texts.push_back({{0.015, 0.96}, Align::left, note, chart_text});
   }

@@ -30,7 +30,7 @@ DecadeRange error_decades(const LaneSnapshot& lane, const Thresholds& thresholds
 
 /// How many pixels, in percent, have which raw error, on a logarithmic axis, with a marker a
 /// threshold (id: its channel) to be dragged, the part above it shaded, and the share of pixels
-/// that will be refined. One channel: bars in `accent`. Three: a line and a marker each, red,
+/// that are not done. One channel: bars in `accent`. Three: a line and a marker each, red,
 /// green, blue.
 ///
 /// The markers stand at `thresholds`, which may be ahead of the lane's while one is dragged. A lane

@@ -4,25 +4,21 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <vector>
 
+#include "renderer/adaptive/pixel_state.h"
 #include "renderer/adaptive/snapshot.h"
 
 namespace quartet {
-
-/// Each pixel's error in units of its threshold, the largest of the channels where there are
-/// several: above 1 the pixel is refined. Empty for an estimator without errors and before the
-/// first frame.
-std::vector<float> relative_error(const LaneSnapshot& lane);
 
 /// Everything about one pixel of a lane.
 struct PixelValues {
   glm::vec3 radiance{0.0f};  ///< linear
   std::uint32_t taken = 0;   ///< samples, rejected ones included
   std::uint32_t rejected = 0;
+  PixelState state = PixelState::refining;
   int error_channels = 0;             ///< of `error`
   std::array<float, 3> error{};       ///< raw, in the estimator's unit
-  float relative_error = 0.0f;        ///< in units of the threshold, largest channel
+  float scaled_error = 0.0f;          ///< in units of the threshold, largest channel
   std::optional<glm::vec3> variance;  ///< of the mean, radiance²; where the snapshot has it
 };
 

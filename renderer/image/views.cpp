@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/image/pixel_values.h"
+#include "renderer/adaptive/pixel_state.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/table.h"
 
@@ -40,7 +40,7 @@ View heat_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings& s
   View view;
   view.bar = {heat_scale(snapshot, lane, settings.heat), "", ""};
   if (!shown.history.empty() && shown.history.back().max_spp >= cap) {
-    view.bar->cap_label = fmt::format("at the maximum of {} spp", cap);
+    view.bar->cap_label = fmt::format("the maximum of {} spp", cap);
   }
   view.image = DisplayImage(snapshot.width, snapshot.height);
   heatmap(shown.taken, view.bar->scale, cap, view.image.pixels());
@@ -50,13 +50,13 @@ View heat_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings& s
 /// Linear from 0 to twice the threshold, so that what decides lies in the middle of the scale; how
 /// far beyond it an error is, its histogram shows.
 View error_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
-  const std::vector<float> relative = relative_error(snapshot.lanes[lane]);
-  if (relative.empty()) {
+  const std::vector<float> scaled = largest_scaled_errors(snapshot.lanes[lane]);
+  if (scaled.empty()) {
     return blank(snapshot, estimator(snapshot.lanes[lane].policy.estimator).channels == 0
                                ? "uniform sampling estimates no error"
                                : "no frame yet");
   }
-  return numbers_view(snapshot, relative, {{0.0, 2.0, ColorMapId::turbo}, "", ""});
+  return numbers_view(snapshot, scaled, {{0.0, 2.0, ColorMapId::turbo}, "", ""});
 }
 
 std::vector<float> largest_channel(const std::vector<float>& planes, std::size_t pixels) {
@@ -108,29 +108,24 @@ View variance_view(const Snapshot& snapshot, std::size_t lane, const ViewSetting
 
 View stop_view(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
-  const std::size_t pixels = snapshot.pixels();
-  const std::size_t channels = shown.error.size() / pixels;
-  enum State : std::size_t { active, satisfied, at_maximum };
+  const std::uint32_t minimum = minimum_samples(shown.policy);
+  std::string refining(pixel_state_label(PixelState::refining));
+  if (estimator(shown.policy.estimator).channels > 0) {
+    refining += ": error above its threshold";
+    refining += minimum > 0 ? fmt::format(" or below {} spp", minimum) : "";
+  }
   View view;
-  const std::uint32_t minimum = channels > 0 ? minimum_samples(shown.policy) : 0;
-  view.legend = {
-      {{232, 119, 46},
-       channels == 0 ? "active"
-       : minimum == 0
-           ? "error above its threshold"
-           : fmt::format("error above its threshold, or fewer than {} samples", minimum)},
-      {{46, 88, 130}, "satisfied"},
-      {kCapColor, fmt::format("at the maximum of {} spp", shown.policy.max_spp)}};
+  // In the order of the states.
+  view.legend = {{{46, 88, 130}, std::string(pixel_state_label(PixelState::done))},
+                 {{232, 119, 46}, std::move(refining)},
+                 {kCapColor, fmt::format("{} of {} spp", pixel_state_label(PixelState::at_maximum),
+                                         shown.policy.max_spp)}};
   view.image = DisplayImage(snapshot.width, snapshot.height);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    // Compared as the policy does: the quotient can round to the threshold.
-    State state = channels == 0 || shown.taken[i] < minimum ? active : satisfied;
-    for (std::size_t c = 0; c < channels; ++c) {
-      state = shown.error[c * pixels + i] > shown.policy.thresholds[c] ? active : state;
-    }
-    state = shown.taken[i] >= shown.policy.max_spp ? at_maximum : state;
-    ++view.legend[state].pixels;
-    view.image.pixels()[i] = view.legend[state].color;
+  const std::vector<PixelState> states = pixel_states(shown);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    ColorMeaning& meaning = view.legend[std::size_t(states[i])];
+    ++meaning.pixels;
+    view.image.pixels()[i] = meaning.color;
   }
   return view;
 }

@@ -5,17 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "renderer/adaptive/pixel_state.h"
 #include "renderer/measure/interval.h"
 #include "renderer/trace/sample_store.h"
 
 namespace quartet {
-
-/// Which pixels a criterion has finished with.
-enum class PixelState : std::uint8_t {
-  refining,
-  done,        ///< its error is not above the threshold
-  at_maximum,  ///< it has all samples that it may have
-};
 
 /// A hidden look at pixels: a random subset of them keeps receiving samples that no estimator sees,
 /// so that what a criterion says of them can be checked without a reference.

@@ -15,7 +15,7 @@ constexpr double close_enough = 0.01;  // of the budget: met
 // Nearer than this the search ends; measured seconds vary more than a hundredth of a percent.
 constexpr double spot_on = 0.001;
 constexpr double spot_on_seconds = 0.004;
-// Thresholds so high that nothing is refined, so low that everything is; products with any sensible
+// Thresholds so high that everything is done, so low that nothing is; products with any sensible
 // default are still ordinary floats.
 constexpr double extreme = 0x1p50;
 constexpr int most_runs = 80;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/image/pixel_values.h"
 #include "renderer/image/quality_chart.h"
 #include "renderer/image/views.h"
 
@@ -15,18 +14,18 @@ MetricValues none() {
   return MetricValues(metrics().size(), std::nan(""));
 }
 
-/// Errors are compared in units of their threshold, so that channels can be compared too.
+/// Errors are compared in units of their thresholds, so that channels can be compared too.
 LaneQuality quality_of(const LaneSnapshot& lane, const RadianceImage& image,
                        const RadianceImage& truth) {
   constexpr std::size_t groups = 40;
   const ScalarImage true_error = metric(MetricId::mse).map(image, truth);
-  const std::vector<float> estimated = relative_error(lane);
+  const std::vector<float> estimated = largest_scaled_errors(lane);
   LaneQuality quality;
   quality.rank_correlation = std::nan("");
   if (!estimated.empty()) {
     quality.calibration = calibration_curve(estimated, true_error.pixels(), groups);
     quality.rank_correlation = rank_correlation(estimated, true_error.pixels());
-    quality.stops = false_stops(estimated, true_error.pixels());
+    quality.stops = false_stops(pixel_states(lane), true_error.pixels());
   }
   return quality;
 }

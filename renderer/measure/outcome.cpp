@@ -92,28 +92,6 @@ std::span<const OutcomeColumn> outcome_columns() {
   return columns;
 }
 
-std::vector<PixelState> pixel_states(const Lane& lane) {
-  const SamplingPolicy& policy = lane.policy();
-  const std::size_t pixels = lane.film().size();
-  const std::size_t channels = lane.error().size() / pixels;
-  const std::uint32_t least = minimum_samples(policy);
-  std::vector<PixelState> states(pixels, channels > 0 ? PixelState::done : PixelState::refining);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (lane.error()[c * pixels + i] > policy.thresholds[c]) {
-        states[i] = PixelState::refining;
-      }
-    }
-    if (lane.taken()[i] < least) {
-      states[i] = PixelState::refining;
-    }
-    if (states[i] == PixelState::refining && lane.taken()[i] >= policy.max_spp) {
-      states[i] = PixelState::at_maximum;
-    }
-  }
-  return states;
-}
-
 Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
                    const PixelRegion& region) {
   std::vector<float> errors = squared_errors(picture, truth);

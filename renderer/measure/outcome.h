@@ -14,9 +14,6 @@
 
 namespace quartet {
 
-/// What became of each pixel of a lane, by its errors, thresholds and maximum.
-std::vector<PixelState> pixel_states(const Lane& lane);
-
 /// What is measured of one lane that has run to its end, against the truth; NaN: it was not. Shares
 /// are of pixels unless said otherwise; `region` is where the failure lives. A pixel is wrong if
 /// its squared relative error is above the common target.

@@ -86,32 +86,33 @@ double rank_correlation(std::span<const float> a, std::span<const float> b) {
 }
 
 double FalseStops::share() const {
-  return done > 0 && refining > 0 ? double(wrong) / double(done) : nan;
+  return done > 0 && not_done > 0 ? double(wrong) / double(done) : nan;
 }
 
-FalseStops false_stops(std::span<const float> scaled_error,
+FalseStops false_stops(std::span<const PixelState> states,
                        std::span<const float> true_squared_error) {
-  assert(scaled_error.size() == true_squared_error.size());
-  std::vector<float> refining;
-  for (std::size_t i = 0; i < scaled_error.size(); ++i) {
-    if (scaled_error[i] > 1.0f) {
-      refining.push_back(true_squared_error[i]);
+  assert(states.size() == true_squared_error.size());
+  std::vector<float> others;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i] != PixelState::done) {
+      others.push_back(true_squared_error[i]);
     }
   }
   FalseStops stops;
-  stops.refining = refining.size();
-  stops.done = scaled_error.size() - refining.size();
-  if (refining.empty()) {
+  stops.not_done = others.size();
+  stops.done = states.size() - others.size();
+  if (others.empty()) {
     return stops;
   }
-  const auto middle = refining.begin() + std::ptrdiff_t(refining.size() / 2);
-  std::ranges::nth_element(refining, middle);
+  const auto middle = others.begin() + std::ptrdiff_t(others.size() / 2);
+  std::ranges::nth_element(others, middle);
   double median = double(*middle);
-  if (refining.size() % 2 == 0) {
-    median = 0.5 * (median + double(*std::max_element(refining.begin(), middle)));
+  if (others.size() % 2 == 0) {
+    median = 0.5 * (median + double(*std::max_element(others.begin(), middle)));
   }
-  for (std::size_t i = 0; i < scaled_error.size(); ++i) {
-    stops.wrong += scaled_error[i] <= 1.0f && double(true_squared_error[i]) > median ? 1 : 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const bool worse = double(true_squared_error[i]) > median;
+    stops.wrong += states[i] == PixelState::done && worse ? 1 : 0;
   }
   return stops;
 }
@@ -139,35 +140,17 @@ std::vector<float> oracle_weights(const Film& film) {
   return weights;
 }
 
-std::vector<float> scaled_errors(const Lane& lane) {
-  const std::span<const float> error = lane.error();
-  if (error.empty()) {
-    return {};
-  }
-  const std::size_t pixels = lane.film().size();
-  std::vector<float> scaled(pixels, 0.0f);
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const float threshold = lane.policy().thresholds[i / pixels];
-    // Not by dividing first: what decides is whether the error is above the threshold, to the bit.
-    const float ratio = error[i] / threshold;
-    const float decided =
-        error[i] > threshold ? std::max(ratio, std::nextafter(1.0f, 2.0f)) : std::min(ratio, 1.0f);
-    scaled[i % pixels] = std::max(scaled[i % pixels], decided);
-  }
-  return scaled;
-}
-
 EstimatorQuality quality_of(const Lane& lane, std::span<const float> true_squared_error,
                             std::span<const float> oracle) {
   EstimatorQuality quality;
   quality.oracle_distance = share_distance(lane.taken(), oracle);
-  const std::vector<float> scaled = scaled_errors(lane);
+  const std::vector<float> scaled = largest_scaled_errors(lane);
   if (scaled.empty()) {
     quality.rank_correlation = nan;
     return quality;
   }
   quality.rank_correlation = rank_correlation(scaled, true_squared_error);
-  quality.stops = false_stops(scaled, true_squared_error);
+  quality.stops = false_stops(pixel_states(lane), true_squared_error);
   quality.calibration = calibration_curve(scaled, true_squared_error, calibration_bins);
   return quality;
 }

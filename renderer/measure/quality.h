@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "renderer/adaptive/pixel_state.h"
+
 namespace quartet {
 
 class Film;
@@ -31,19 +33,18 @@ std::vector<CalibrationBin> calibration_curve(std::span<const float> estimated,
 /// of their ranks. NaN where either side does not vary.
 double rank_correlation(std::span<const float> a, std::span<const float> b);
 
-/// Pixels that an estimator takes to be done though they are worse than half of those that it still
-/// refines: their true error is above the median of theirs.
+/// Pixels that are done though they are worse than half of those that are not, refining or at the
+/// maximum: their true error is above the median of theirs.
 struct FalseStops {
   std::size_t done = 0;      ///< pixels
-  std::size_t refining = 0;  ///< pixels
+  std::size_t not_done = 0;  ///< pixels
   std::size_t wrong = 0;     ///< of those done
 
   /// Of the pixels done; NaN where either kind of pixel is missing, and with it the question.
   double share() const;
 };
 
-/// `scaled_error` in units of the threshold: above 1 a pixel is still refined.
-FalseStops false_stops(std::span<const float> scaled_error,
+FalseStops false_stops(std::span<const PixelState> states,
                        std::span<const float> true_squared_error);
 
 /// Share of the samples that lie elsewhere than an oracle would have put them: the total variation
@@ -56,10 +57,6 @@ double share_distance(std::span<const std::uint32_t> samples, std::span<const fl
 /// it (Neyman, "On the Two Different Aspects of the Representative Method", 1934). `film` keeps
 /// variances.
 std::vector<float> oracle_weights(const Film& film);
-
-/// Errors of a lane in units of their thresholds, the largest of the channels: above 1 a pixel is
-/// refined. Empty before the first frame and for an estimator without an error.
-std::vector<float> scaled_errors(const Lane& lane);
 
 /// All of the above of a lane, whose picture is off by `true_squared_error`. Of an estimator
 /// without an error only the distance is a number.

@@ -154,7 +154,7 @@ TEST(Estimators, TooFewSamplesAreNotJudged) {
       policy.allocation.kind = AllocationId::batch;
       const std::vector<std::uint32_t> taken(6, std::uint32_t(count));
       plan_next(policy, {3, 2, errors, taken, 1}, plan);
-      EXPECT_EQ(plan.refined, looks_at_neighbours(row) ? 0u : 6u);
+      EXPECT_EQ(plan.not_done, looks_at_neighbours(row) ? 0u : 6u);
     }
   });
 }

@@ -86,7 +86,7 @@ void expect_same_state(const Lane& a, const Lane& b) {
   EXPECT_EQ(a.plan().wanted, b.plan().wanted);
   for (std::size_t i = 0; i < a.history().size(); ++i) {
     EXPECT_EQ(a.history()[i].samples, b.history()[i].samples);
-    EXPECT_EQ(a.history()[i].refined, b.history()[i].refined);
+    EXPECT_EQ(a.history()[i].not_done, b.history()[i].not_done);
     EXPECT_EQ(a.history()[i].max_spp, b.history()[i].max_spp);
     EXPECT_EQ(a.history()[i].rays, b.history()[i].rays);
   }
@@ -406,7 +406,7 @@ TEST(Lab, TheOracleKnowsWhereThePictureIsWrong) {
   run(lab, 1);
   const Lane& lane = lab.lanes()[0];
   ASSERT_EQ(lane.taken()[0], 8u);
-  EXPECT_EQ(lane.plan().refined, 1u);
+  EXPECT_EQ(lane.plan().not_done, 1u);
   EXPECT_EQ(lane.plan().wanted[std::size_t(7) * width + 5], 8u);
   EXPECT_NEAR(lane.error()[std::size_t(7) * width + 5], 1.0, 1e-5);
 }

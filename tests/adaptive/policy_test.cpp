@@ -41,13 +41,14 @@ TEST(Vote, FirstFrameIsOneSampleEverywhere) {
   const Plan plan = picture.plan(kl_policy(0.5f), 0);
   EXPECT_EQ(plan.wanted, std::vector<std::uint16_t>(20, 1));
   EXPECT_EQ(plan.total, 20u);
+  EXPECT_EQ(plan.not_done, 20u);
 }
 
 TEST(Vote, APixelVotesForItsNeighbourhood) {
   Picture picture(5, 5);
   picture.error[12] = 1.0f;
   const Plan plan = picture.plan(kl_policy(1.0f));
-  EXPECT_EQ(plan.refined, 1u);
+  EXPECT_EQ(plan.not_done, 1u);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
       const bool near = std::abs(x - 2) <= 1 && std::abs(y - 2) <= 1;
@@ -84,9 +85,9 @@ TEST(Vote, ErrorAtTheThresholdIsDone) {
   Picture picture(1, 1);
   const SamplingPolicy policy = kl_policy(1.0f);
   picture.error[0] = policy.thresholds[0];
-  EXPECT_EQ(picture.plan(policy).refined, 0u);
+  EXPECT_EQ(picture.plan(policy).not_done, 0u);
   picture.error[0] = std::nextafter(policy.thresholds[0], 1.0f);
-  EXPECT_EQ(picture.plan(policy).refined, 1u);
+  EXPECT_EQ(picture.plan(policy).not_done, 1u);
 }
 
 TEST(Vote, EachChannelOfContrastHasItsThreshold) {
@@ -94,9 +95,9 @@ TEST(Vote, EachChannelOfContrastHasItsThreshold) {
   for (std::size_t c = 0; c < 3; ++c) {
     Picture picture(1, 1, 3);
     picture.error[c] = policy.thresholds[c];
-    EXPECT_EQ(picture.plan(policy).refined, 0u) << c;
+    EXPECT_EQ(picture.plan(policy).not_done, 0u) << c;
     picture.error[c] = policy.thresholds[c] + 0.01f;
-    EXPECT_EQ(picture.plan(policy).refined, 1u) << c;
+    EXPECT_EQ(picture.plan(policy).not_done, 1u) << c;
   }
 }
 
@@ -156,9 +157,9 @@ TEST(TwoLevel, LooksOnce) {
   EXPECT_EQ(picture.plan(policy, 0).wanted, (Counts{1, 1, 1}));
   const Plan second = picture.plan(policy, 1);
   EXPECT_EQ(second.wanted, (Counts{8, 0, 8}));
-  EXPECT_EQ(second.refined, 2u);
+  EXPECT_EQ(second.not_done, 2u);
   EXPECT_EQ(picture.plan(policy, 2).total, 0u);
-  EXPECT_EQ(picture.plan(policy, 2).refined, 0u);
+  EXPECT_EQ(picture.plan(policy, 2).not_done, 2u) << "though they get nothing";
 }
 
 TEST(Batch, GoesOnUntilNoErrorIsAboveTheThreshold) {
@@ -177,13 +178,13 @@ TEST(Batch, GoesOnUntilNoErrorIsAboveTheThreshold) {
   EXPECT_EQ(picture.plan(policy, 3).total, 0u);
 }
 
-TEST(Converge, KeepsTheNeighboursOfAnActivePixelActive) {
+TEST(Converge, GivesTheNeighboursOfAPixelThatIsNotDoneSamplesToo) {
   const SamplingPolicy policy = kl_policy(AllocationId::converge);
   Picture picture(5, 5);
   picture.error[0] = 1.0f;
   EXPECT_EQ(picture.plan(policy, 0).wanted, Counts(25, 16));
   const Plan plan = picture.plan(policy, 1);
-  EXPECT_EQ(plan.refined, 1u);
+  EXPECT_EQ(plan.not_done, 1u);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
       EXPECT_EQ(plan.wanted[std::size_t(5) * std::size_t(y) + std::size_t(x)],

@@ -93,13 +93,13 @@ inline void expect_same(const Snapshot& a, const Snapshot& b) {
     EXPECT_EQ(x.variance, y.variance);
     EXPECT_EQ(x.plan.wanted, y.plan.wanted);
     EXPECT_EQ(x.plan.total, y.plan.total);
-    EXPECT_EQ(x.plan.refined, y.plan.refined);
+    EXPECT_EQ(x.plan.not_done, y.plan.not_done);
     ASSERT_EQ(x.history.size(), y.history.size());
     for (std::size_t f = 0; f < x.history.size(); ++f) {
       EXPECT_EQ(x.history[f].frame, y.history[f].frame);
       EXPECT_EQ(x.history[f].samples, y.history[f].samples);
       EXPECT_EQ(x.history[f].max_spp, y.history[f].max_spp);
-      EXPECT_EQ(x.history[f].refined, y.history[f].refined);
+      EXPECT_EQ(x.history[f].not_done, y.history[f].not_done);
     }
   }
 }

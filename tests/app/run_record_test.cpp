@@ -50,14 +50,14 @@ Snapshot numbered_snapshot() {
        .pilot_samples = 3,
        .rays = 31,
        .max_spp = 2,
-       .refined = 1,
+       .not_done = 1,
        .seconds = 0.5},
       {.frame = 2,
        .samples = 10,
        .pilot_samples = 5,
        .rays = 52,
        .max_spp = 4,
-       .refined = 2,
+       .not_done = 2,
        .seconds = 1.25},
   };
   LaneSnapshot& kl = snapshot.lanes[1];
@@ -65,7 +65,7 @@ Snapshot numbered_snapshot() {
   kl.policy.allocation.kind = AllocationId::batch;
   kl.mean = {{{0.25f, 0.25f}, {0.25f, 0.25f}, {0.25f, 0.25f}}};
   kl.history = {
-      {.frame = 3, .samples = 15, .rays = 77, .max_spp = 13, .refined = 0, .seconds = 2.5}};
+      {.frame = 3, .samples = 15, .rays = 77, .max_spp = 13, .not_done = 0, .seconds = 2.5}};
   return snapshot;
 }
 

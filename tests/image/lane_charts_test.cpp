@@ -26,7 +26,7 @@ Snapshot charted_example() {
     for (std::size_t i = 0; i < lane.error.size(); ++i) {
       lane.error[i] = 0.9f * float(i % 1000) / 1000.0f * lane.policy.thresholds[0] * 2.0f;
     }
-    lane.plan.refined = 310;
+    lane.plan.not_done = 310;
   }
   finish(snapshot);
   return snapshot;
@@ -92,7 +92,7 @@ TEST(SampleChart, HasABarACountInTheColoursOfTheHeatmap) {
   EXPECT_EQ(reading_at(chart, 100.0), "");
 }
 
-TEST(ErrorChart, OneChannelHasBarsOneMarkerAndTheShareThatIsRefined) {
+TEST(ErrorChart, OneChannelHasBarsOneMarkerAndTheShareThatIsNotDone) {
   const Snapshot snapshot = charted_example();
   Thresholds thresholds{0.002f, 0.0f, 0.0f};
   const Chart chart = error_chart(snapshot, 1, thresholds, accent);
@@ -103,7 +103,7 @@ TEST(ErrorChart, OneChannelHasBarsOneMarkerAndTheShareThatIsRefined) {
   EXPECT_EQ(chart.shades[0].begin, chart.markers[0].value);
   EXPECT_EQ(chart.shades[0].end, chart.x.max);
   ASSERT_FALSE(chart.texts.empty());
-  EXPECT_EQ(chart.texts[0].text, "31 % of pixels will be refined");
+  EXPECT_EQ(chart.texts[0].text, "31 % of pixels are not done");
   double percent = 0.0;
   for (const Bar& bar : chart.bars) {
     percent += bar.value;

@@ -13,6 +13,8 @@
 #include "renderer/adaptive/lab.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/pixel_values.h"
+#include "renderer/measure/outcome.h"
+#include "renderer/scene/load_scene.h"
 #include "tests/image/snapshot_cases.h"
 
 namespace quartet {
@@ -91,8 +93,8 @@ TEST(Views, ContrastCountsItsChannelWithTheLargestErrorForItsThreshold) {
   contrast.policy.thresholds = {0.4f, 0.2f, 0.5f};
   //                red         green       blue
   contrast.error = {0.4f, 0.0f, 0.1f, 0.4f, 0.25f, 0.25f};
-  EXPECT_EQ(relative_error(contrast), (std::vector<float>{1.0f, 2.0f}));
-  EXPECT_EQ(pixel_values(contrast, 1).relative_error, 2.0f);
+  EXPECT_EQ(largest_scaled_errors(contrast), (std::vector<float>{1.0f, 2.0f}));
+  EXPECT_EQ(pixel_values(contrast, 1).scaled_error, 2.0f);
   EXPECT_EQ(pixel_values(contrast, 1).error, (std::array{0.0f, 0.4f, 0.25f}));
 }
 
@@ -105,16 +107,63 @@ TEST(Views, StopStatesAreThoseOfThePolicy) {
   kl.taken = {9, 1, 8, 9};
   const View view = draw_view(snapshot, 1, ViewKind::stop_state, {});
   ASSERT_EQ(view.legend.size(), 3u);
-  const auto active = view.legend[0].color;
-  const auto satisfied = view.legend[1].color;
-  const auto at_maximum = view.legend[2].color;
-  EXPECT_EQ(view.image.at(0, 0), at_maximum);
-  EXPECT_EQ(view.image.at(1, 0), satisfied) << "at the threshold is not above it";
-  EXPECT_EQ(view.image.at(2, 0), active);
-  EXPECT_EQ(view.image.at(3, 0), at_maximum);
-  EXPECT_EQ(view.legend[0].pixels, 1u);
+  using enum PixelState;
+  constexpr std::array expected{done, done, refining, at_maximum};
+  for (int x = 0; x < 4; ++x) {
+    const PixelState state = expected[std::size_t(x)];
+    EXPECT_EQ(view.image.at(x, 0), view.legend[std::size_t(state)].color) << x;
+    EXPECT_EQ(pixel_values(kl, std::size_t(x)).state, state) << x;
+  }
+  EXPECT_EQ(view.legend[0].label, "done");
+  EXPECT_EQ(view.legend[1].label, "refining: error above its threshold");
+  EXPECT_EQ(view.legend[2].label, "at the maximum of 9 spp");
+  EXPECT_EQ(view.legend[0].pixels, 2u);
   EXPECT_EQ(view.legend[1].pixels, 1u);
-  EXPECT_EQ(view.legend[2].pixels, 2u);
+  EXPECT_EQ(view.legend[2].pixels, 1u);
+}
+
+TEST(Views, TheLegendOfStopStatesSaysWhatKeepsAPixelFromBeingDone) {
+  const std::array estimators{EstimatorId::cycles, EstimatorId::uniform};
+  Snapshot snapshot = blank_snapshot(1, 1, estimators);
+  snapshot.lanes[0].policy.thresholds[0] = 100.0f;
+  const auto label = [&](std::size_t lane) {
+    return draw_view(snapshot, lane, ViewKind::stop_state, {}).legend[1].label;
+  };
+  EXPECT_EQ(label(0), "refining: error above its threshold or below 5 spp");
+  EXPECT_EQ(label(1), "refining");
+}
+
+// Two values at random: where the first samples agree, the variance is 0 and a pixel is done; the
+// others take all that they may, until they are done too.
+TEST(Views, StopStatesAreThoseOfAStudy) {
+  constexpr int side = 32;
+  const auto scene = std::make_shared<const TraceScene>(open_scene("synthetic:bernoulli"));
+  RenderSettings settings = default_settings(scene->scene());
+  settings.width = settings.height = side;
+  SamplingPolicy policy = default_policy(EstimatorId::variance);
+  policy.thresholds[0] = 0.05f;
+  policy.max_spp = 16;
+  Lab lab(sample_source(scene, settings), side, side, std::span(&policy, 1));
+  while (lab.lanes()[0].plan().total > 0) {
+    lab.run_frame();
+  }
+  const Lane& lane = lab.lanes()[0];
+  ASSERT_EQ(std::ranges::count(lane.taken(), 16u), 580);
+
+  Truth truth;
+  truth.image = std::make_shared<const RadianceImage>(side, side, glm::vec3(1.0f));
+  const Audit audit([](int, int, std::uint32_t, std::span<glm::vec3>) {}, side, side, 0.0, 2, 0);
+  const Outcome outcome =
+      Observation(truth, {0, 0, side, side}, 1.0).outcome(lane, lane.taken(), audit);
+  EXPECT_EQ(outcome.done, 1.0);
+  EXPECT_EQ(outcome.never_done, 0.0);
+
+  Snapshot snapshot;
+  copy_lanes(lab, snapshot);
+  const View view = draw_view(snapshot, 0, ViewKind::stop_state, {});
+  EXPECT_EQ(view.legend[std::size_t(PixelState::done)].pixels, 1024u);
+  EXPECT_EQ(view.legend[std::size_t(PixelState::refining)].pixels, 0u);
+  EXPECT_EQ(view.legend[std::size_t(PixelState::at_maximum)].pixels, 0u);
 }
 
 TEST(Views, LinkedHeatmapsShareAScaleAndReportOnesDoNot) {
@@ -131,7 +180,7 @@ TEST(Views, LinkedHeatmapsShareAScaleAndReportOnesDoNot) {
   snapshot.lanes[1].policy.max_spp = 40;
   const View view = draw_view(snapshot, 1, ViewKind::heatmap, {});
   EXPECT_EQ(view.image.at(1, 0), kCapColor);
-  EXPECT_EQ(view.bar->cap_label, "at the maximum of 40 spp");
+  EXPECT_EQ(view.bar->cap_label, "the maximum of 40 spp");
 }
 
 TEST(Views, DifferencesAreSignedAndSymmetric) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "renderer/adaptive/lab.h"
-#include "tests/measure/noisy_source.h"
 
 // A lane made by hand: the oracle sees which pixels are to be done, the truth says which are
 // wrong, and every sample of a pixel is the same but for two that no film takes.
@@ -187,30 +186,6 @@ TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
   EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::refining);
   plain.run_frame();
   EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::at_maximum);
-}
-
-TEST(Outcome, PixelStatesLookAtEveryChannelAndTheLeastSamples) {
-  for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::confidence}) {
-    SamplingPolicy policy = default_policy(id);
-    policy.thresholds = {0.02f, 0.2f, 0.5f};
-    policy.allocation.kind = AllocationId::vote;
-    constexpr int side = 16;
-    Lab lab(test::noisy_source(side), side, side, std::span(&policy, 1));
-    lab.run_frame();
-    lab.run_frame();
-    const Lane& lane = lab.lanes()[0];
-    const std::vector<PixelState> states = pixel_states(lane);
-    std::size_t refining = 0;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      bool expected = lane.taken()[i] < minimum_samples(policy);
-      for (std::size_t c = 0; c < std::size_t(estimator(id).channels); ++c) {
-        expected = expected || lane.error()[c * states.size() + i] > policy.thresholds[c];
-      }
-      EXPECT_EQ(states[i], expected ? PixelState::refining : PixelState::done) << i;
-      refining += expected ? 1 : 0;
-    }
-    EXPECT_EQ(refining, lane.plan().refined);
-  }
 }
 
 TEST(Outcome, OfAPictureAlone) {

@@ -123,18 +123,22 @@ TEST(CalibrationCurve, LeavesOutWhatIsNotFinite) {
 }
 
 TEST(FalseStops, AreDonePixelsWorseThanHalfOfTheOthers) {
-  // Refined: 2, 4, 6, 8 with the median 5; done: 1, 5, 5.1, 100.
-  const std::vector<float> scaled{2, 2, 2, 2, 0.5f, 1.0f, 0, 1.0f};
+  using enum PixelState;
+  using States = std::vector<PixelState>;
+  // Not done: 2, 4, 6, 8 with the median 5; done: 1, 5, 5.1, 100.
+  const States states{refining, at_maximum, refining, refining, done, done, done, done};
   const std::vector<float> truth{2, 4, 6, 8, 1, 5, 5.1f, 100};
-  const FalseStops stops = false_stops(scaled, truth);
-  EXPECT_EQ(stops.refining, 4u);
+  const FalseStops stops = false_stops(states, truth);
+  EXPECT_EQ(stops.not_done, 4u);
   EXPECT_EQ(stops.done, 4u);
   EXPECT_EQ(stops.wrong, 2u);
   EXPECT_DOUBLE_EQ(stops.share(), 0.5);
-  EXPECT_TRUE(std::isnan(false_stops(std::vector<float>{0}, std::vector<float>{1}).share()));
-  EXPECT_TRUE(std::isnan(false_stops(std::vector<float>{2}, std::vector<float>{1}).share()));
+  EXPECT_TRUE(std::isnan(false_stops(States{done}, std::vector<float>{1}).share()));
+  EXPECT_TRUE(std::isnan(false_stops(States{refining}, std::vector<float>{1}).share()));
   // An odd number has one in the middle.
-  EXPECT_EQ(false_stops(std::vector<float>{2, 2, 2, 0}, std::vector<float>{1, 5, 9, 6}).wrong, 1u);
+  EXPECT_EQ(
+      false_stops(States{refining, refining, refining, done}, std::vector<float>{1, 5, 9, 6}).wrong,
+      1u);
 }
 
 TEST(ShareDistance, IsZeroForTheSameSharesAndOneForDisjointOnes) {
@@ -203,18 +207,18 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
     lab.run_frame();
   }
   const Lane& lane = lab.lanes()[0];
-  const std::vector<float> scaled = scaled_errors(lane);
+  const std::vector<float> scaled = largest_scaled_errors(lane);
   ASSERT_EQ(scaled.size(), 128u);
-  std::size_t refined = 0;
+  std::size_t not_done = 0;
   for (std::size_t i = 0; i < scaled.size(); ++i) {
     float most = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
       most = std::max(most, lane.error()[c * 128 + i] / policy.thresholds[c]);
     }
     EXPECT_NEAR(scaled[i], most, 1e-6);
-    refined += scaled[i] > 1.0f ? 1 : 0;
+    not_done += scaled[i] > 1.0f ? 1 : 0;
   }
-  EXPECT_EQ(refined, lane.history().back().refined);
+  EXPECT_EQ(not_done, lane.history().back().not_done);
   std::vector<float> truth(128);
   std::vector<float> oracle(128);
   for (std::size_t i = 0; i < 128; ++i) {
@@ -223,7 +227,7 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
     oracle[i] = i % 16 < 8 ? 0.0f : 1.0f;
   }
   const EstimatorQuality quality = quality_of(lane, truth, oracle);
-  EXPECT_EQ(quality.stops.refining, refined);
+  EXPECT_EQ(quality.stops.not_done, not_done);
   EXPECT_DOUBLE_EQ(quality.rank_correlation, rank_correlation(scaled, truth));
   EXPECT_GT(quality.rank_correlation, 0.5);
   EXPECT_DOUBLE_EQ(quality.oracle_distance, share_distance(lane.taken(), oracle));
@@ -233,6 +237,20 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
   Lab plain(half_noise(), 16, 8, std::span(&policy, 1));
   plain.run_frame();
   EXPECT_DOUBLE_EQ(quality_of(plain.lanes()[0], truth, oracle).oracle_distance, 0.5);
+}
+
+TEST(EstimatorQuality, APixelWithFewerSamplesThanTheMinimumIsNotDone) {
+  SamplingPolicy policy = default_policy(EstimatorId::cycles);
+  policy.thresholds[0] =
+      100.0f;  // above every error: only the minimum keeps pixels from being done
+  policy.allocation.kind = AllocationId::vote;
+  ASSERT_EQ(minimum_samples(policy), 5u);
+  Lab lab(half_noise(), 16, 8, std::span(&policy, 1));
+  lab.run_frame();
+  ASSERT_LT(std::ranges::max(lab.lanes()[0].taken()), 5u);
+  const std::vector<float> even(128, 1.0f);
+  EXPECT_EQ(quality_of(lab.lanes()[0], even, even).stops.done, 0u);
+  EXPECT_EQ(quality_of(lab.lanes()[0], even, even).stops.not_done, 128u);
 }
 
 }  // namespace

@@ -112,6 +112,25 @@ TEST(LabPictures, TheReadOutCountsRejectedSamplesAndNamesTheFirst) {
   }
 }
 
+TEST(LabPictures, TheReadOutSaysWhetherThePixelIsDone) {
+  PixelValues values;
+  values.taken = 20;
+  values.error_channels = 1;
+  values.error[0] = 3.0f;
+  values.scaled_error = 1.5f;
+  for (const PixelState state : {PixelState::done, PixelState::refining, PixelState::at_maximum}) {
+    values.state = state;
+    const std::string label(pixel_state_label(state));
+    EXPECT_EQ(
+        read_out_texts(estimator(EstimatorId::kl), values, std::nullopt),
+        (std::vector<std::string>{"20 spp · " + label + " · error 3.00 = 1.50 × threshold",
+                                  "20 spp · " + label + " · error 3.00 (1.50×)",
+                                  "20 spp · " + label + " · error 1.50×", "20 spp · error 1.50×"}));
+    EXPECT_EQ(read_out_texts(estimator(EstimatorId::uniform), values, std::nullopt).front(),
+              "20 spp · " + label);
+  }
+}
+
 TEST(LabPictures, LayoutsShowTheirLanes) {
   LabHand hand;
   hand.key('l');

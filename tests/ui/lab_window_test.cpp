@@ -37,14 +37,14 @@ TEST(LabWindow, DraggingAThresholdLineReplaysItsLaneAlone) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const auto before = heatmaps(hand);
     const auto policies = hand.state().request.policies;
-    const std::uint64_t refined = hand.snapshot().lanes[lane].history.back().refined;
+    const std::uint64_t not_done = hand.snapshot().lanes[lane].history.back().not_done;
     hand.drag(lane_widget(lane, "errors.marker0"), -45.0f);
     hand.move(-100.0f, -100.0f);
     hand.settle();
     expect_only(lane, policies, hand.state().request.policies);
     EXPECT_LT(hand.policy(lane).thresholds[0], policies[lane].thresholds[0]);
     EXPECT_EQ(hand.snapshot().lanes[lane].policy, hand.policy(lane));
-    EXPECT_GT(hand.snapshot().lanes[lane].history.back().refined, refined);
+    EXPECT_GT(hand.snapshot().lanes[lane].history.back().not_done, not_done);
     expect_only(lane, before, heatmaps(hand));
   }
 }
@@ -61,7 +61,7 @@ TEST(LabWindow, TheAxisOfErrorsStandsStillUnderADrag) {
     hand.frames(2);
     return hand.policy(1).thresholds[0];
   };
-  // Far to the left nearly all pixels are refined and the errors shrink; then back.
+  // Far to the left nearly no pixel is done and the errors shrink; then back.
   const float start = threshold_at(marker.center_x() + 6.0f);
   const float low = threshold_at(plot.x + 2.0f);
   hand.settle();
@@ -452,7 +452,7 @@ TEST(LabWindow, ASliderKeepsItsLengthWhileTheNumbersBesideItChange) {
   hand.frames(3);
   const ScreenRect before = hand.rect("lane1.threshold0");
   const float numbers = hand.rect("lane1.numbers").width;
-  hand.state().request.policies[1].thresholds[0] = 1000.0f;  // nothing is refined
+  hand.state().request.policies[1].thresholds[0] = 1000.0f;  // every pixel is done
   hand.settle();
   EXPECT_NE(hand.rect("lane1.numbers").width, numbers);
   EXPECT_EQ(hand.rect("lane1.threshold0").width, before.width);
