@@ -51,8 +51,8 @@ void LabDriver::drop(const std::filesystem::path& file) {
 
 void LabDriver::load_reference(const std::filesystem::path& file) {
   const LabRequest& wanted = window_.state().request;
-  if (wanted.scene) {
-    ask_for_reference({wanted.scene, wanted.settings, file, 0});
+  if (wanted.store.scene) {
+    ask_for_reference({wanted.store.scene, wanted.store.settings, file, 0});
   } else {
     window_.say(Message::Kind::error,
                 fmt::format("{}: there is no scene yet that it could belong to", file.string()));
@@ -137,7 +137,8 @@ void LabDriver::load_typed(const std::string& scene) {
 void LabDriver::load_typed_reference(const ReferenceOrder& order) {
   const LabRequest& wanted = window_.state().request;
   try {
-    ask_for_reference({wanted.scene, wanted.settings, typed_path(order.file.string()), order.spp});
+    ask_for_reference(
+        {wanted.store.scene, wanted.store.settings, typed_path(order.file.string()), order.spp});
   } catch (const std::exception& error) {
     window_.say(Message::Kind::error, error.what());
   }
@@ -155,7 +156,7 @@ void LabDriver::cancel() {
   }
   if (reference_->output.activity == ReferenceStatus::Activity::loading) {
     const LabRequest& wanted = window_.state().request;
-    ask_for_reference({wanted.scene, wanted.settings, {}, 0});
+    ask_for_reference({wanted.store.scene, wanted.store.settings, {}, 0});
   }
   window_.say(Message::Kind::notice, "cancelled");
 }
@@ -163,7 +164,7 @@ void LabDriver::cancel() {
 /// A size that was typed or chosen and would not fit the memory gives way to the one before.
 /// Returns whether it did.
 bool LabDriver::keep_size_within_memory() {
-  RenderSettings& wanted = window_.state().request.settings;
+  RenderSettings& wanted = window_.state().request.store.settings;
   const glm::ivec2 size(wanted.width, wanted.height);
   if (size == fitting_size_) {
     return false;
@@ -183,10 +184,11 @@ void LabDriver::submit() {
   const LabRequest& wanted = window_.state().request;
   // Whoever looks at the truth waits until it is known whether there is one.
   const bool lacks_truth =
-      !wanted.reference && std::ranges::any_of(wanted.policies, [](const SamplingPolicy& policy) {
+      !wanted.lanes.reference &&
+      std::ranges::any_of(wanted.lanes.policies, [](const SamplingPolicy& policy) {
         return estimator(policy.estimator).needs_reference;
       });
-  if (wanted.scene && !lacks_truth && !same_request(wanted, submitted_)) {
+  if (wanted.store.scene && !lacks_truth && wanted != submitted_) {
     submitted_ = wanted;
     request_ = session_.submit(wanted);
   }
@@ -201,8 +203,8 @@ void LabDriver::ask_for_reference(ReferenceRequest request) {
 /// Another view wants another reference, which the cache may hold.
 void LabDriver::keep_reference_current() {
   const LabRequest& wanted = window_.state().request;
-  const ReferenceRequest view{wanted.scene, wanted.settings, {}, 0};
-  if (wanted.scene && !same_view(view, asked_reference_)) {
+  const ReferenceRequest view{wanted.store.scene, wanted.store.settings, {}, 0};
+  if (wanted.store.scene && !same_view(view, asked_reference_)) {
     ask_for_reference(view);
   }
   reference_ = references_.latest();
@@ -217,13 +219,13 @@ void LabDriver::keep_reference_current() {
 
 void LabDriver::equalise(const EqualiseOrder& order) {
   const LabRequest& wanted = window_.state().request;
-  EqualiseRequest request{wanted.scene,     wanted.settings,   wanted.policies, {},
-                          wanted.reference, wanted.memory / 2, wanted.threads};
+  EqualiseRequest request{wanted.store, wanted.lanes.policies, {}, wanted.lanes.reference};
+  request.store.memory /= 2;
   request.budget.frames = order.frames;
   request.budget.spp = order.spp;
   request.budget.seconds = order.seconds;
   if (order.error) {
-    request.budget.error = ErrorTarget{wanted.metric, *order.error};
+    request.budget.error = ErrorTarget{wanted.lanes.metric, *order.error};
   }
   equalised_ = request;
   equalise_request_ = equaliser_.submit(std::move(request));
@@ -240,7 +242,7 @@ EqualiseProgress LabDriver::keep_equalising() {
     return {status.lanes, status.calibrations.size()};
   }
   equalise_request_ = 0;
-  std::vector<SamplingPolicy>& lanes = window_.state().request.policies;
+  std::vector<SamplingPolicy>& lanes = window_.state().request.lanes.policies;
   for (std::size_t i = 0; i < std::min(lanes.size(), status.calibrations.size()); ++i) {
     // What the user has changed meanwhile stays.
     if (lanes[i] == equalised_.policies[i]) {
@@ -297,8 +299,8 @@ std::optional<RejectedSample> LabDriver::rejected() const {
 
 bool LabDriver::settled() const {
   const bool lanes = !loader_.busy() && export_request_ == 0 &&
-                     same_request(window_.state().request, submitted_) && snapshot_ &&
-                     snapshot_->request == request_ && snapshot_->frame >= submitted_.frame;
+                     window_.state().request == submitted_ && snapshot_ &&
+                     snapshot_->request == request_ && snapshot_->frame >= submitted_.lanes.frame;
   if (!lanes || reference_request_ == 0) {
     return lanes;
   }
@@ -311,7 +313,7 @@ bool LabDriver::settled() const {
     return true;
   }
   const auto evaluation = evaluations_.latest();
-  return submitted_.reference && evaluation->input == evaluation_request_ &&
+  return submitted_.lanes.reference && evaluation->input == evaluation_request_ &&
          evaluation->output.complete && evaluation->output.snapshot == snapshot_;
 }
 

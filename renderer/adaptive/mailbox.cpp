@@ -6,14 +6,14 @@
 namespace quartet {
 
 std::uint64_t Mailbox::submit(LabRequest request) {
-  const StoreKey key{request.scene.get(), request.settings, request.memory, request.threads};
+  StoreRequest store = request.store;
   auto newest = std::make_unique<Numbered>(Numbered{0, std::move(request)});
   std::uint64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
     number = newest->number = ++submitted_;
-    const Waiting kind = key == newest_ ? Waiting::other_lanes : Waiting::other_store;
-    newest_ = key;
+    const Waiting kind = store == newest_store_ ? Waiting::other_lanes : Waiting::other_store;
+    std::swap(newest_store_, store);
     waiting_.store(std::max(kind, waiting()), std::memory_order_relaxed);
     request_.swap(newest);
   }

@@ -45,20 +45,11 @@ class Mailbox {
   void set_working(bool working) { working_.store(working, std::memory_order_relaxed); }
 
  private:
-  /// Which store a request needs. Only compared: the scene may be gone.
-  struct StoreKey {
-    const TraceScene* scene = nullptr;
-    RenderSettings settings;
-    std::size_t memory = 0;
-    int threads = 0;
-    bool operator==(const StoreKey&) const = default;
-  };
-
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::unique_ptr<Numbered> request_;
   std::uint64_t submitted_ = 0;
-  StoreKey newest_;
+  StoreRequest newest_store_;
   std::shared_ptr<const Snapshot> latest_;
   std::shared_ptr<const SessionStatus> status_;
   std::atomic<Waiting> waiting_ = Waiting::nothing;
