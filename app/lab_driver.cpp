@@ -25,7 +25,7 @@ LabDriver::LabDriver(LabState state, const GlFunctions& gl, std::function<void()
       evaluations_(evaluation_work(), wake),
       rejected_samples_(rejected_work(), wake),
       equaliser_(equalise_work(), wake),
-      exports_(export_work(), wake) {
+      exports_(export_status, wake) {
 }
 
 LabDriver::~LabDriver() {
@@ -75,7 +75,7 @@ bool LabDriver::draw(double seconds) {
   const bool pending =
       !answered || reference_->output.activity == ReferenceStatus::Activity::loading;
   const LabOrders orders =
-      window_.draw({snapshot_, session_.status(), loader_.busy(), export_request_ != 0,
+      window_.draw({snapshot_, session_.status(), loader_.busy(), exports_.busy(),
                     answered ? reference_->output : ReferenceStatus(), pending,
                     evaluations_.latest()->output, keep_equalising(), rejected(), seconds});
   obey(orders);
@@ -150,9 +150,8 @@ void LabDriver::cancel() {
     loader_.cancel();
     window_.scene_failed("");
   }
-  if (export_request_ != 0) {
-    exports_.submit(std::nullopt);
-    export_request_ = 0;
+  if (exports_.busy()) {
+    exports_.cancel();
   }
   if (reference_->output.activity == ReferenceStatus::Activity::loading) {
     const LabRequest& wanted = window_.state().request;
@@ -298,9 +297,9 @@ std::optional<RejectedSample> LabDriver::rejected() const {
 }
 
 bool LabDriver::settled() const {
-  const bool lanes = !loader_.busy() && export_request_ == 0 &&
-                     window_.state().request == submitted_ && snapshot_ &&
-                     snapshot_->request == request_ && snapshot_->frame >= submitted_.lanes.frame;
+  const bool lanes = !loader_.busy() && !exports_.busy() && window_.state().request == submitted_ &&
+                     snapshot_ && snapshot_->request == request_ &&
+                     snapshot_->frame >= submitted_.lanes.frame;
   if (!lanes || reference_request_ == 0) {
     return lanes;
   }
@@ -326,18 +325,16 @@ std::string LabDriver::error() const {
 void LabDriver::save(const ExportForm& form) {
   const std::shared_ptr<const Reference>& reference = reference_->output.reference;
   const bool measured = reference && snapshot_->reference.get() == &reference->image;
-  export_request_ =
-      exports_.submit(ExportRequest{snapshot_, window_.state().view, form, window_.state().scene,
-                                    measured ? reference : nullptr});
+  exports_.order({snapshot_, window_.state().view, form, window_.state().scene,
+                  measured ? reference : nullptr});
 }
 
 void LabDriver::take_export() {
-  const auto latest = exports_.latest();
-  if (export_request_ == 0 || latest->input != export_request_) {
+  const std::optional<ExportStatus> status = exports_.poll();
+  if (!status) {
     return;
   }
-  export_request_ = 0;
-  const auto& [done, error] = latest->output;
+  const auto& [done, error] = *status;
   if (error.empty()) {
     window_.say(Message::Kind::notice, fmt::format("saved into {}{}", done.folder.string(),
                                                    done.lacks.empty() ? "" : "; " + done.lacks));
