@@ -114,7 +114,7 @@ void read_all(const ordered_json& json, LabState& state, WindowMemory& memory,
   }
   reader.read(json, "export_folder", state.export_form.folder);
   if (json.contains("metric")) {
-    state.request.metric = find_metric(json.at("metric").get<std::string>()).key;
+    state.request.lanes.metric = find_metric(json.at("metric").get<std::string>()).key;
   }
   if (json.contains("dock")) {
     read_dock(json.at("dock"), state.dock, reader);
@@ -183,7 +183,7 @@ void save_config(const std::filesystem::path& path, const LabState& state,
   json["tone_map"] = tone_map_row(state.view.tone_map).id;
   json["heat"] = state.view.heat == HeatRange::linked ? "linked" : "report";
   json["export_folder"] = state.export_form.folder;
-  json["metric"] = metric(state.request.metric).id;
+  json["metric"] = metric(state.request.lanes.metric).id;
   json["dock"] = dock_json(state.dock);
   for (const LaneSlots& slots : state.slots) {
     ordered_json lane;

@@ -25,7 +25,7 @@ LabDriver::LabDriver(LabState state, const GlFunctions& gl, std::function<void()
       evaluations_(evaluation_work(), wake),
       rejected_samples_(rejected_work(), wake),
       equaliser_(equalise_work(), wake),
-      exports_(export_work(), wake) {
+      exports_(export_status, wake) {
 }
 
 LabDriver::~LabDriver() {
@@ -51,8 +51,8 @@ void LabDriver::drop(const std::filesystem::path& file) {
 
 void LabDriver::load_reference(const std::filesystem::path& file) {
   const LabRequest& wanted = window_.state().request;
-  if (wanted.scene) {
-    ask_for_reference({wanted.scene, wanted.settings, file, 0});
+  if (wanted.store.scene) {
+    ask_for_reference({wanted.store.scene, wanted.store.settings, file, 0});
   } else {
     window_.say(Message::Kind::error,
                 fmt::format("{}: there is no scene yet that it could belong to", file.string()));
@@ -75,7 +75,7 @@ bool LabDriver::draw(double seconds) {
   const bool pending =
       !answered || reference_->output.activity == ReferenceStatus::Activity::loading;
   const LabOrders orders =
-      window_.draw({snapshot_, session_.status(), loader_.busy(), export_request_ != 0,
+      window_.draw({snapshot_, session_.status(), loader_.busy(), exports_.busy(),
                     answered ? reference_->output : ReferenceStatus(), pending,
                     evaluations_.latest()->output, keep_equalising(), rejected(), seconds});
   obey(orders);
@@ -137,7 +137,8 @@ void LabDriver::load_typed(const std::string& scene) {
 void LabDriver::load_typed_reference(const ReferenceOrder& order) {
   const LabRequest& wanted = window_.state().request;
   try {
-    ask_for_reference({wanted.scene, wanted.settings, typed_path(order.file.string()), order.spp});
+    ask_for_reference(
+        {wanted.store.scene, wanted.store.settings, typed_path(order.file.string()), order.spp});
   } catch (const std::exception& error) {
     window_.say(Message::Kind::error, error.what());
   }
@@ -149,13 +150,12 @@ void LabDriver::cancel() {
     loader_.cancel();
     window_.scene_failed("");
   }
-  if (export_request_ != 0) {
-    exports_.submit(std::nullopt);
-    export_request_ = 0;
+  if (exports_.busy()) {
+    exports_.cancel();
   }
   if (reference_->output.activity == ReferenceStatus::Activity::loading) {
     const LabRequest& wanted = window_.state().request;
-    ask_for_reference({wanted.scene, wanted.settings, {}, 0});
+    ask_for_reference({wanted.store.scene, wanted.store.settings, {}, 0});
   }
   window_.say(Message::Kind::notice, "cancelled");
 }
@@ -163,7 +163,7 @@ void LabDriver::cancel() {
 /// A size that was typed or chosen and would not fit the memory gives way to the one before.
 /// Returns whether it did.
 bool LabDriver::keep_size_within_memory() {
-  RenderSettings& wanted = window_.state().request.settings;
+  RenderSettings& wanted = window_.state().request.store.settings;
   const glm::ivec2 size(wanted.width, wanted.height);
   if (size == fitting_size_) {
     return false;
@@ -183,10 +183,11 @@ void LabDriver::submit() {
   const LabRequest& wanted = window_.state().request;
   // Whoever looks at the truth waits until it is known whether there is one.
   const bool lacks_truth =
-      !wanted.reference && std::ranges::any_of(wanted.policies, [](const SamplingPolicy& policy) {
+      !wanted.lanes.reference &&
+      std::ranges::any_of(wanted.lanes.policies, [](const SamplingPolicy& policy) {
         return estimator(policy.estimator).needs_reference;
       });
-  if (wanted.scene && !lacks_truth && !same_request(wanted, submitted_)) {
+  if (wanted.store.scene && !lacks_truth && wanted != submitted_) {
     submitted_ = wanted;
     request_ = session_.submit(wanted);
   }
@@ -201,8 +202,8 @@ void LabDriver::ask_for_reference(ReferenceRequest request) {
 /// Another view wants another reference, which the cache may hold.
 void LabDriver::keep_reference_current() {
   const LabRequest& wanted = window_.state().request;
-  const ReferenceRequest view{wanted.scene, wanted.settings, {}, 0};
-  if (wanted.scene && !same_view(view, asked_reference_)) {
+  const ReferenceRequest view{wanted.store.scene, wanted.store.settings, {}, 0};
+  if (wanted.store.scene && !same_view(view, asked_reference_)) {
     ask_for_reference(view);
   }
   reference_ = references_.latest();
@@ -217,13 +218,13 @@ void LabDriver::keep_reference_current() {
 
 void LabDriver::equalise(const EqualiseOrder& order) {
   const LabRequest& wanted = window_.state().request;
-  EqualiseRequest request{wanted.scene,     wanted.settings,   wanted.policies, {},
-                          wanted.reference, wanted.memory / 2, wanted.threads};
+  EqualiseRequest request{wanted.store, wanted.lanes.policies, {}, wanted.lanes.reference};
+  request.store.memory /= 2;
   request.budget.frames = order.frames;
   request.budget.spp = order.spp;
   request.budget.seconds = order.seconds;
   if (order.error) {
-    request.budget.error = ErrorTarget{wanted.metric, *order.error};
+    request.budget.error = ErrorTarget{wanted.lanes.metric, *order.error};
   }
   equalised_ = request;
   equalise_request_ = equaliser_.submit(std::move(request));
@@ -240,7 +241,7 @@ EqualiseProgress LabDriver::keep_equalising() {
     return {status.lanes, status.calibrations.size()};
   }
   equalise_request_ = 0;
-  std::vector<SamplingPolicy>& lanes = window_.state().request.policies;
+  std::vector<SamplingPolicy>& lanes = window_.state().request.lanes.policies;
   for (std::size_t i = 0; i < std::min(lanes.size(), status.calibrations.size()); ++i) {
     // What the user has changed meanwhile stays.
     if (lanes[i] == equalised_.policies[i]) {
@@ -296,9 +297,9 @@ std::optional<RejectedSample> LabDriver::rejected() const {
 }
 
 bool LabDriver::settled() const {
-  const bool lanes = !loader_.busy() && export_request_ == 0 &&
-                     same_request(window_.state().request, submitted_) && snapshot_ &&
-                     snapshot_->request == request_ && snapshot_->frame >= submitted_.frame;
+  const bool lanes = !loader_.busy() && !exports_.busy() && window_.state().request == submitted_ &&
+                     snapshot_ && snapshot_->request == request_ &&
+                     snapshot_->frame >= submitted_.lanes.frame;
   if (!lanes || reference_request_ == 0) {
     return lanes;
   }
@@ -311,7 +312,7 @@ bool LabDriver::settled() const {
     return true;
   }
   const auto evaluation = evaluations_.latest();
-  return submitted_.reference && evaluation->input == evaluation_request_ &&
+  return submitted_.lanes.reference && evaluation->input == evaluation_request_ &&
          evaluation->output.complete && evaluation->output.snapshot == snapshot_;
 }
 
@@ -324,18 +325,16 @@ std::string LabDriver::error() const {
 void LabDriver::save(const ExportForm& form) {
   const std::shared_ptr<const Reference>& reference = reference_->output.reference;
   const bool measured = reference && snapshot_->reference.get() == &reference->image;
-  export_request_ =
-      exports_.submit(ExportRequest{snapshot_, window_.state().view, form, window_.state().scene,
-                                    measured ? reference : nullptr});
+  exports_.order({snapshot_, window_.state().view, form, window_.state().scene,
+                  measured ? reference : nullptr});
 }
 
 void LabDriver::take_export() {
-  const auto latest = exports_.latest();
-  if (export_request_ == 0 || latest->input != export_request_) {
+  const std::optional<ExportStatus> status = exports_.poll();
+  if (!status) {
     return;
   }
-  export_request_ = 0;
-  const auto& [done, error] = latest->output;
+  const auto& [done, error] = *status;
   if (error.empty()) {
     window_.say(Message::Kind::notice, fmt::format("saved into {}{}", done.folder.string(),
                                                    done.lacks.empty() ? "" : "; " + done.lacks));

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/errand.h"
 #include "app/gl_textures.h"
 #include "app/imgui_screen.h"
 #include "app/lab_export.h"
@@ -101,8 +102,7 @@ class LabDriver {
   EqualiseRequest equalised_;
   std::uint64_t equalise_request_ = 0;  // 0: nothing is under way
 
-  ExportTask exports_;
-  std::uint64_t export_request_ = 0;  // 0: nothing is under way
+  Errand<ExportRequest, ExportStatus> exports_;  // a large picture takes seconds
 };
 
 }  // namespace quartet

@@ -106,25 +106,19 @@ LabExport export_lab(const Snapshot& snapshot, const ViewSettings& view, const E
   return done;
 }
 
-ExportTask::Work export_work() {
-  return [](const std::optional<ExportRequest>& request, const std::stop_token& stop,
-            const ExportTask::Publish& publish) {
-    if (!request) {
-      return;
-    }
-    ExportStatus status;
-    try {
-      ExportForm form = request->form;
-      form.folder = typed_path(form.folder).string();
-      status.done = export_lab(*request->snapshot, request->view, form, request->scene,
-                               request->reference.get(), stop);
-    } catch (const Cancelled&) {
-      return;
-    } catch (const std::exception& error) {
-      status.error = error.what();
-    }
-    publish(std::move(status));
-  };
+ExportStatus export_status(const ExportRequest& request, const std::stop_token& stop) {
+  ExportStatus status;
+  try {
+    ExportForm form = request.form;
+    form.folder = typed_path(form.folder).string();
+    status.done = export_lab(*request.snapshot, request.view, form, request.scene,
+                             request.reference.get(), stop);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {
+    status.error = error.what();
+  }
+  return status;
 }
 
 }  // namespace quartet

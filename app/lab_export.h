@@ -2,13 +2,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <stop_token>
 #include <string>
 
 #include "renderer/adaptive/snapshot.h"
 #include "renderer/image/views.h"
-#include "renderer/measure/background_task.h"
 #include "renderer/measure/reference.h"
 #include "ui/lab_state.h"
 
@@ -48,9 +46,7 @@ struct ExportStatus {
   std::string error;  ///< one line; empty if all is well
 };
 
-/// Exports beside the window: a large picture takes seconds. An empty request ends the one under
-/// way.
-using ExportTask = BackgroundTask<std::optional<ExportRequest>, ExportStatus>;
-ExportTask::Work export_work();
+/// Exports, and says how it went. Throws Cancelled once `stop` is asked for, and nothing else.
+ExportStatus export_status(const ExportRequest& request, const std::stop_token& stop);
 
 }  // namespace quartet

@@ -7,6 +7,7 @@
 
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "renderer/adaptive/run_lab.h"
 
 namespace quartet {
 namespace {
@@ -33,12 +34,9 @@ Snapshot run_to_end(Lab& lab, const StopConditions& stop,
   std::vector<bool> ended(count, false);
   std::vector<LaneSnapshot> ends(count);
   Snapshot now;
-  while (std::ranges::count(ended, false) > 0) {
-    if (!lab.run_frame(interrupt.token()) || interrupt.token().stop_requested()) {
-      throw Interrupted();
-    }
+  const bool finished = run_lab(lab, interrupt.token(), [&] {
     if (!all_at_one_frame(lab)) {
-      continue;  // parked lanes, which begin anew, catch up
+      return true;  // parked lanes, which begin anew, catch up
     }
     double least = 1.0;
     std::vector<std::size_t> ending;
@@ -51,7 +49,7 @@ Snapshot run_to_end(Lab& lab, const StopConditions& stop,
     }
     progress.update(least, fmt::format("frame {}", lab.frame()));
     if (ending.empty()) {
-      continue;
+      return true;
     }
     copy_lanes(lab, now);
     for (const std::size_t lane : ending) {
@@ -63,6 +61,10 @@ Snapshot run_to_end(Lab& lab, const StopConditions& stop,
         park(lab, lane);
       }
     }
+    return std::ranges::count(ended, false) > 0;
+  });
+  if (!finished) {
+    throw Interrupted();
   }
   now.lanes = std::move(ends);
   now.reference = std::move(reference);

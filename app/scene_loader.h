@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "renderer/measure/background_task.h"
+#include "app/errand.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/trace_scene.h"
 
@@ -34,23 +33,22 @@ class SceneLoader {
   /// `wake` is called, on another thread, when there is a result.
   explicit SceneLoader(std::function<void()> wake, Open open = open_for_tracing);
 
-  void load(const std::string& scene, const SceneParameters& parameters = {});
+  void load(const std::string& scene, const SceneParameters& parameters = {}) {
+    errand_.order({scene, parameters});
+  }
   /// Nothing is wanted any more.
-  void cancel();
-  bool busy() const { return asked_ != 0; }
+  void cancel() { errand_.cancel(); }
+  bool busy() const { return errand_.busy(); }
   /// A result, once.
-  std::optional<Result> poll();
+  std::optional<Result> poll() { return errand_.poll(); }
   /// Asks what is under way to end, without waiting.
-  void close() { task_.close(); }
+  void close() { errand_.close(); }
 
  private:
-  using Task = BackgroundTask<std::optional<Order>, Result>;
-
   static std::shared_ptr<const TraceScene> open_for_tracing(const Order& order,
                                                             const std::stop_token& stop);
 
-  std::uint64_t asked_ = 0;  // 0: nothing
-  Task task_;
+  Errand<Order, Result> errand_;
 };
 
 }  // namespace quartet

@@ -58,7 +58,7 @@ class EndSeeker {
     // No further than this before the reference is there.
     state.playback.set_target(1);
     if (stop.error) {
-      state.request.metric = stop.error->metric;
+      state.request.lanes.metric = stop.error->metric;
     }
   }
 
@@ -84,7 +84,7 @@ class EndSeeker {
     }
     frame_ = last;
     state.playback.set_target(last);
-    state.request.metric = shown_metric_;
+    state.request.lanes.metric = shown_metric_;
   }
 
   bool found() const { return frame_.has_value(); }
@@ -156,15 +156,15 @@ LabState state_of(const ScreenshotOptions& options, const Run& run,
   LabState state = initial_state();
   set_scene(state, run.scene);
   state.scene = options.run.scene;
-  state.request.settings = run.settings;
-  state.request.policies = std::move(policies);
-  state.request.memory = run.lab.memory;
-  state.request.threads = run.lab.threads;
+  state.request.store.settings = run.settings;
+  state.request.lanes.policies = std::move(policies);
+  state.request.store.memory = run.lab.memory;
+  state.request.store.threads = run.lab.threads;
   state.view = view_settings(options.view);
   state.layout = find_layout(options.layout).key;
   state.ui_scale = options.scale.value_or(0.0f);
   if (!options.metric.empty()) {
-    state.request.metric = find_metric(options.metric).key;
+    state.request.lanes.metric = find_metric(options.metric).key;
   }
   if (!options.reference.empty()) {
     state.dock.open = true;
@@ -190,9 +190,10 @@ void run_screenshot(const ScreenshotOptions& options) {
   std::vector<SamplingPolicy> policies = shown_policies(options, stop);
   const Run run = prepare_run(options.run, policies.size());
   LabState state = state_of(options, run, std::move(policies));
-  truth_for(state.request.policies, reference_at(options.reference, run));  // throws if it is unfit
+  // Throws if it is unfit.
+  truth_for(state.request.lanes.policies, reference_at(options.reference, run));
   StagedFiles files(output.parent_path(), {output.filename().string()});
-  EndSeeker end(or_frames(stop), state.request.metric, state);
+  EndSeeker end(or_frames(stop), state.request.lanes.metric, state);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};

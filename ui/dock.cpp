@@ -52,7 +52,7 @@ void edit_view(LabFrame& frame) {
 }
 
 void edit_metric(LabFrame& frame) {
-  MetricId& chosen = frame.state.request.metric;
+  MetricId& chosen = frame.state.request.lanes.metric;
   combo(frame.ui, "dock.metric", std::string(metric(chosen).label), frame.ui.px(130.0f), [&] {
     bool changed = false;
     for (const Metric& row : metrics()) {
@@ -162,7 +162,7 @@ void draw_qualities(LabFrame& frame, ScreenRect box) {
 }  // namespace
 
 bool dock_is_open(const LabFrame& frame, const ScreenRect& area) {
-  return frame.state.dock.open.value_or(frame.state.request.reference &&
+  return frame.state.dock.open.value_or(frame.state.request.lanes.reference &&
                                         area.height >= frame.ui.px(roomy));
 }
 
@@ -195,7 +195,7 @@ void draw_dock(LabFrame& frame, const ScreenRect& area, const ScreenRect& box) {
   edit_height(frame, area, box);
   rest = rest.inset(ui.px(margin), 0.0f);
   rest.cut_bottom(ui.px(4.0f));
-  if (!frame.state.request.reference) {
+  if (!frame.state.request.lanes.reference) {
     draw_missing_reference(frame, rest);
     return;
   }

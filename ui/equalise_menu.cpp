@@ -44,7 +44,7 @@ bool edit_budget(Ui& ui, const std::string& name, float& value, const std::strin
 void draw_menu(LabFrame& frame) {
   EqualiseForm& form = frame.state.equalise_form;
   Ui& ui = frame.ui;
-  const MetricId chosen = frame.state.request.metric;
+  const MetricId chosen = frame.state.request.lanes.metric;
   ImGui::TextDisabled("Thresholds with which all lanes have, after frame %u,",
                       frame.snapshot->frame);
   EqualiseOrder order;

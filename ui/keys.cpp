@@ -33,12 +33,12 @@ void next_tone_map(LabState& state) {
 }
 
 void orbit_by(LabState& state, float right, float up) {
-  Camera& camera = state.request.settings.camera;
+  Camera& camera = state.request.store.settings.camera;
   camera = orbit(state.camera, camera, right, up);
 }
 
 void dolly_by(LabState& state, float steps) {
-  Camera& camera = state.request.settings.camera;
+  Camera& camera = state.request.store.settings.camera;
   camera = dolly(state.camera, camera, steps);
 }
 
@@ -118,7 +118,7 @@ constexpr std::array table{
            [](LabState& s) { dolly_by(s, 1.0f); }, nullptr},
     KeyRow{key_page_down, false, "", "", [](LabState& s) { dolly_by(s, -1.0f); }, nullptr},
     KeyRow{key_home, false, "Home", "the scene's own camera",
-           [](LabState& s) { s.request.settings.camera = s.camera.home; }, nullptr},
+           [](LabState& s) { s.request.store.settings.camera = s.camera.home; }, nullptr},
 
     KeyRow{'s', false, "S", "save the figure, or one panel",
            [](LabState& s) { s.export_form.open = true; }, nullptr},

@@ -5,8 +5,8 @@ namespace quartet {
 LabState initial_state() {
   LabState state;
   for (const Estimator& row : estimators()) {
-    if (row.channels > 0 && state.request.policies.size() < lane_count) {
-      state.request.policies.push_back(default_policy(row.key));
+    if (row.channels > 0 && state.request.lanes.policies.size() < lane_count) {
+      state.request.lanes.policies.push_back(default_policy(row.key));
     }
   }
   for (LaneSlots& slots : state.slots) {
@@ -16,25 +16,19 @@ LabState initial_state() {
 }
 
 void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene) {
-  const RenderSettings old = state.request.settings;
-  state.request.settings = default_settings(scene->scene());
-  if (state.request.scene) {
+  const RenderSettings old = state.request.store.settings;
+  state.request.store.settings = default_settings(scene->scene());
+  if (state.request.store.scene) {
     if (why_not(scene->scene(), old.integrator).empty()) {
-      state.request.settings.integrator = old.integrator;
+      state.request.store.settings.integrator = old.integrator;
     }
-    state.request.settings.seed = old.seed;
+    state.request.store.settings.seed = old.seed;
   }
   state.camera = camera_controls(*scene);
-  state.request.scene = std::move(scene);
+  state.request.store.scene = std::move(scene);
   state.pan_zoom = {};
   state.hovered.reset();
   state.pinned.reset();
-}
-
-bool same_request(const LabRequest& a, const LabRequest& b) {
-  return a.scene == b.scene && a.settings == b.settings && a.policies == b.policies &&
-         a.frame == b.frame && a.variance == b.variance && a.reference == b.reference &&
-         a.metric == b.metric && a.memory == b.memory && a.threads == b.threads;
 }
 
 }  // namespace quartet

@@ -118,7 +118,7 @@ struct LabState {
   bool cancel = false;      ///< it shall end, at the next frame
   bool quit = false;
 
-  const TraceScene* trace_scene() const { return request.scene.get(); }
+  const TraceScene* trace_scene() const { return request.store.scene.get(); }
 };
 
 /// The four estimators with a threshold, in the order of the table, and the usual views.
@@ -127,8 +127,5 @@ LabState initial_state();
 /// Gives the state a scene that was loaded: its camera, its size, its depth. Integrator, seed,
 /// policies and views stay.
 void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene);
-
-/// Whether both ask for the same.
-bool same_request(const LabRequest& a, const LabRequest& b);
 
 }  // namespace quartet

@@ -55,10 +55,10 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
     x += width + ui.px(4.0f);
     return pressed;
   };
-  for (std::size_t i = 0; i < frame.state.request.policies.size(); ++i) {
+  for (std::size_t i = 0; i < frame.state.request.lanes.policies.size(); ++i) {
     const std::string text =
         std::to_string(i + 1) + "  " +
-        std::string(estimator(frame.state.request.policies[i].estimator).label);
+        std::string(estimator(frame.state.request.lanes.policies[i].estimator).label);
     if (button("tab" + std::to_string(i), text, lane_color(i), i == comparison.lane)) {
       comparison.choose(i);
     }
@@ -67,7 +67,7 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
   const std::string b = "B: lane " + std::to_string(comparison.other + 1);
   if (button("other", b, lane_color(comparison.other), true)) {
     do {
-      comparison.other = (comparison.other + 1) % frame.state.request.policies.size();
+      comparison.other = (comparison.other + 1) % frame.state.request.lanes.policies.size();
     } while (comparison.other == comparison.lane);
   }
   tooltip(ui, "The lane to compare with; a click takes the next one");
@@ -85,7 +85,7 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
 
 LabWindow::LabWindow(LabState state, UploadTexture upload)
     : state_(std::move(state)), pictures_(std::move(upload)) {
-  last_ = state_.request;
+  last_store_ = state_.request.store;
 }
 
 bool LabWindow::rescale(float natural) {
@@ -138,24 +138,25 @@ void LabWindow::normalize_exposure() {
 /// What follows from the rest of the state, so that no widget and no key needs to think of it.
 void LabWindow::keep_request_consistent(bool reference_pending) {
   LabRequest& request = state_.request;
-  request.variance = wants_variance(state_);
-  if (request.scene != last_.scene || !(request.settings == last_.settings)) {
+  request.lanes.variance = wants_variance(state_);
+  if (request.store != last_store_) {
     state_.playback.forget();
-    request.reference.reset();  // of another view; the next frame will bring what is right
+    request.lanes.reference.reset();  // of another view; the next frame will bring what is right
     reference_pending = true;
   }
-  request.frame = state_.playback.wanted();
+  request.lanes.frame = state_.playback.wanted();
   // Without the truth there is nothing that such a lane could look at.
-  for (SamplingPolicy& policy : request.policies) {
-    if (!request.reference && !reference_pending && estimator(policy.estimator).needs_reference) {
+  for (SamplingPolicy& policy : request.lanes.policies) {
+    if (!request.lanes.reference && !reference_pending &&
+        estimator(policy.estimator).needs_reference) {
       policy = default_policy(EstimatorId::uniform);
     }
   }
-  last_ = request;
+  last_store_ = request.store;
 }
 
 void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
-  const std::size_t count = state_.request.policies.size();
+  const std::size_t count = state_.request.lanes.policies.size();
   const ColumnWish wish = column_wish(frame);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (state_.layout == LabLayout::large) {
@@ -191,7 +192,7 @@ LabOrders LabWindow::draw(const LabInput& input) {
   snapshot_ = input.snapshot;
   const std::shared_ptr<const Reference>& reference = input.reference.reference;
   // It lives as long as the whole of which it is a part.
-  state_.request.reference = {reference, reference ? &reference->image : nullptr};
+  state_.request.lanes.reference = {reference, reference ? &reference->image : nullptr};
   LabOrders orders;
   state_.can_cancel = input.loading || input.saving ||
                       input.reference.activity == ReferenceStatus::Activity::loading;
@@ -201,8 +202,8 @@ LabOrders LabWindow::draw(const LabInput& input) {
   if (state_.normalize) {
     normalize_exposure();
   }
-  const bool current = snapshot_ && snapshot_->scene == state_.request.scene &&
-                       snapshot_->settings == state_.request.settings;
+  const bool current = snapshot_ && snapshot_->scene == state_.request.store.scene &&
+                       snapshot_->settings == state_.request.store.settings;
   orders.animate = state_.playback.update(current ? snapshot_->frame : 0, input.seconds);
 
   const ImVec2 size = ImGui::GetIO().DisplaySize;

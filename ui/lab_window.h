@@ -60,7 +60,7 @@ class LabWindow {
   PictureCache pictures_;
   Message message_;
   std::shared_ptr<const Snapshot> snapshot_;
-  LabRequest last_;  ///< of the frame before
+  StoreRequest last_store_;  ///< of the frame before
 };
 
 }  // namespace quartet

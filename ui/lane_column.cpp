@@ -43,7 +43,7 @@ void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) 
   const Rgba8 accent = rgba_of(lane_color(lane));
   const std::string name = fmt::format("lane{}.", lane);
   // Ahead of the lane while one is dragged; of another estimator they would mean nothing here.
-  SamplingPolicy& wanted = frame.state.request.policies[lane];
+  SamplingPolicy& wanted = frame.state.request.lanes.policies[lane];
   const Thresholds& thresholds =
       wanted.estimator == shown->policy.estimator ? wanted.thresholds : shown->policy.thresholds;
   const DecadeRange decades = axis_of_errors(frame.state, lane, error_decades(*shown, thresholds));
@@ -64,7 +64,7 @@ void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) 
 
 ColumnWish column_wish(const LabFrame& frame) {
   ColumnWish wish;
-  const RenderSettings& settings = frame.state.request.settings;
+  const RenderSettings& settings = frame.state.request.store.settings;
   if (settings.width > 0 && settings.height > 0) {
     wish.aspect = float(settings.width) / float(settings.height);
   }

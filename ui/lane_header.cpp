@@ -311,13 +311,13 @@ float lane_header_height(const Ui& ui, float width) {
 
 void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   Ui& ui = frame.ui;
-  SamplingPolicy edited = frame.state.request.policies[lane];
+  SamplingPolicy edited = frame.state.request.lanes.policies[lane];
   bool changed = false;
   const float gap = ui.px(8.0f);
   const float row = row_height(ui);
   const float mean_width = ui.px(76.0f);
   const float estimator_width = widest_combo(ui, estimators());
-  const bool has_reference = frame.state.request.reference != nullptr;
+  const bool has_reference = frame.state.request.lanes.reference != nullptr;
   ScreenRect first = box.cut_top(row);
   draw_mean(frame, lane, first.right(), first.y + ui.px(3.0f));
   first.cut_right(mean_width);
@@ -366,7 +366,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     draw_numbers(frame, lane, box, false);
   }
   if (changed) {
-    frame.state.request.policies[lane] = edited;
+    frame.state.request.lanes.policies[lane] = edited;
   }
 }
 

@@ -165,7 +165,7 @@ void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int heigh
     frame.hovered = pixel;
     if (io.MouseWheel != 0.0f) {
       if (io.KeyCtrl) {
-        Camera& camera = state.request.settings.camera;
+        Camera& camera = state.request.store.settings.camera;
         camera = dolly(state.camera, camera, io.MouseWheel);
       } else {
         state.pan_zoom = zoomed_at(state.pan_zoom, slot.box, width, height, io.MousePos.x,
@@ -186,7 +186,7 @@ void handle_mouse(LabFrame& frame, const PictureSlot& slot, int width, int heigh
           panned(state.pan_zoom, slot.box, width, height, io.MouseDelta.x, io.MouseDelta.y);
     } else if (ImGui::IsMouseDown(1)) {
       const float turn = 0.008f / frame.ui.scale;
-      Camera& camera = state.request.settings.camera;
+      Camera& camera = state.request.store.settings.camera;
       camera = orbit(state.camera, camera, -io.MouseDelta.x * turn, io.MouseDelta.y * turn);
     }
   }
@@ -225,10 +225,10 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const View* picture,
   ImGui::PushClipRect({clip.x, clip.y}, {clip.right(), clip.bottom()}, true);
   if (!picture) {
     draw_note(ui, slot.box,
-              frame.loading                ? "loading the scene"
-              : !frame.state.request.scene ? "no scene is loaded"
-              : frame.status.error.empty() ? "waiting for the first frame"
-                                           : "nothing was rendered");
+              frame.loading                      ? "loading the scene"
+              : !frame.state.request.store.scene ? "no scene is loaded"
+              : frame.status.error.empty()       ? "waiting for the first frame"
+                                                 : "nothing was rendered");
   } else if (picture->image.empty()) {
     draw_note(ui, slot.box, picture->note);
   } else {

@@ -2,18 +2,18 @@
 
 #include <cstdint>
 
-#include "renderer/adaptive/session.h"
+#include "renderer/adaptive/lab_request.h"
 
 namespace quartet {
 
 /// Where in the experiment the window stands: which frame it asks the lanes for, and when.
 class Playback {
  public:
-  static constexpr std::uint32_t no_end = LabRequest::no_end;
+  static constexpr std::uint32_t no_end = LaneRequest::no_end;
 
   bool playing() const { return playing_; }
   std::uint32_t target() const { return target_; }      ///< where playing ends, or no_end
-  std::uint32_t wanted() const { return wanted_; }      ///< for LabRequest::frame
+  std::uint32_t wanted() const { return wanted_; }      ///< for LaneRequest::frame
   std::uint32_t furthest() const { return furthest_; }  ///< frame seen so far of this store
   std::uint32_t shown() const { return shown_; }
 

@@ -87,9 +87,9 @@ std::vector<std::string> reference_texts(const LabFrame& frame) {
     return {have + " · " + so_far + left, so_far + left, so_far};
   }
   if (status.reference) {
-    if (const auto floor = noise_floor(frame, frame.state.request.metric)) {
+    if (const auto floor = noise_floor(frame, frame.state.request.lanes.metric)) {
       texts.push_back(fmt::format("{} · its own noise: {} {:.2g}", have,
-                                  metric(frame.state.request.metric).label, *floor));
+                                  metric(frame.state.request.lanes.metric).label, *floor));
     }
   }
   texts.push_back(have);

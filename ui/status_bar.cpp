@@ -23,7 +23,7 @@ std::string bytes_text(double bytes) {
 
 std::string activity_text(const SessionStatus& status) {
   using Activity = SessionStatus::Activity;
-  const std::string target = status.frame_target == LabRequest::no_end
+  const std::string target = status.frame_target == LaneRequest::no_end
                                  ? std::string("∞")
                                  : fmt::format("{}", status.frame_target);
   switch (status.activity) {

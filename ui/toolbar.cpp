@@ -28,7 +28,7 @@ struct Item {
 };
 
 void draw_integrator(LabFrame& frame, float width) {
-  RenderSettings& settings = frame.state.request.settings;
+  RenderSettings& settings = frame.state.request.store.settings;
   combo(frame.ui, "integrator", std::string(integrator(settings.integrator).id), width, [&] {
     bool changed = false;
     for (const Integrator& row : integrators()) {
@@ -49,7 +49,7 @@ std::string size_text(int width, int height) {
 
 void draw_size(LabFrame& frame, float width) {
   LabState& state = frame.state;
-  RenderSettings& settings = state.request.settings;
+  RenderSettings& settings = state.request.store.settings;
   combo(frame.ui, "size", size_text(settings.width, settings.height), width, [&] {
     bool changed = false;
     const TraceScene* scene = state.trace_scene();
@@ -84,11 +84,11 @@ void draw_seed(LabFrame& frame, float width) {
   const float start = ImGui::GetCursorScreenPos().x;
   leading_label(frame.ui, "seed");
   ImGui::SetNextItemWidth(width - (ImGui::GetCursorScreenPos().x - start));
-  std::uint64_t seed = frame.state.request.settings.seed;
+  std::uint64_t seed = frame.state.request.store.settings.seed;
   constexpr std::uint64_t least = 0;
   constexpr std::uint64_t largest = UINT64_MAX;
   if (ImGui::DragScalar("##seed", ImGuiDataType_U64, &seed, 0.05f, &least, &largest)) {
-    frame.state.request.settings.seed = seed;
+    frame.state.request.store.settings.seed = seed;
   }
   frame.ui.mark("seed");
   tooltip(frame.ui, "Another seed, other random numbers. Drag, or double-click and type.");
@@ -211,7 +211,7 @@ std::vector<Item> items(const LabFrame& frame, bool compact) {
   const auto exposure_width = [&] {
     return compact ? ui.px(100.0f) : labelled("exposure", ui.px(146.0f));
   };
-  const RenderSettings& settings = state.request.settings;
+  const RenderSettings& settings = state.request.store.settings;
   return {
       {std::max(ui.px(compact ? 80.0f : 140.0f), combo_width(ui, scene_label(state))), draw_scene},
       {combo_width(ui, "kajiya"), draw_integrator},

@@ -16,23 +16,18 @@ constexpr auto snapshot_interval = milliseconds(33);
 // shown when there is nothing better for this long.
 constexpr auto replay_interval = milliseconds(250);
 
-bool same_store(const LabRequest& a, const LabRequest& b) {
-  return a.scene == b.scene && a.settings == b.settings && a.memory == b.memory &&
-         a.threads == b.threads;
-}
-
 void check(const LabRequest& request) {
-  if (!request.scene) {
+  if (!request.store.scene) {
     throw std::invalid_argument("no scene to render");
   }
-  if (request.policies.empty()) {
+  if (request.lanes.policies.empty()) {
     throw std::invalid_argument("no lane to render");
   }
-  const RenderSettings& settings = request.settings;
+  const RenderSettings& settings = request.store.settings;
   if (settings.width < 1 || settings.height < 1) {
     throw std::invalid_argument("a picture needs at least one pixel");
   }
-  if (const auto& reference = request.reference;
+  if (const auto& reference = request.lanes.reference;
       reference &&
       (reference->width() != settings.width || reference->height() != settings.height)) {
     throw std::invalid_argument(
@@ -79,11 +74,11 @@ void LabWorker::begin(std::unique_ptr<Mailbox::Numbered> newest) {
   }
   complete_ = false;
   check(newest->request);
-  const bool keep = lab_ && same_store(current_->request, newest->request);
+  const bool keep = lab_ && current_->request.store == newest->request.store;
   current_ = std::move(newest);
   board_.status.error.clear();
-  board_.status.frame_target = current_->request.frame;
-  board_.status.memory_budget = current_->request.memory;
+  board_.status.frame_target = current_->request.lanes.frame;
+  board_.status.memory_budget = current_->request.store.memory;
   if (keep) {
     change_lab();
   } else {
@@ -94,8 +89,8 @@ void LabWorker::begin(std::unique_ptr<Mailbox::Numbered> newest) {
 /// Of the lanes that were asked for and, if there is something to compare them with, of a last one
 /// of uniform sampling.
 std::vector<SamplingPolicy> LabWorker::policies() const {
-  std::vector<SamplingPolicy> all = current_->request.policies;
-  if (current_->request.reference) {
+  std::vector<SamplingPolicy> all = current_->request.lanes.policies;
+  if (current_->request.lanes.reference) {
     all.push_back(default_policy(EstimatorId::uniform));
   }
   return all;
@@ -109,16 +104,16 @@ void LabWorker::make_lab() {
   replaying_ = false;
   board_.status.activity = Activity::tracing;
   LabOptions options;
-  options.threads = request.threads;
-  options.memory = request.memory;
-  options.statistics.variance = request.variance;
-  options.reference = request.reference;
-  options.pilot_source = watched(pilot_source(request.scene, request.settings));
-  lab_ =
-      std::make_unique<Lab>(watched(sample_source(request.scene, request.settings)),
-                            request.settings.width, request.settings.height, policies(), options);
+  options.threads = request.store.threads;
+  options.memory = request.store.memory;
+  options.statistics.variance = request.lanes.variance;
+  options.reference = request.lanes.reference;
+  options.pilot_source = watched(pilot_source(request.store.scene, request.store.settings));
+  lab_ = std::make_unique<Lab>(watched(sample_source(request.store.scene, request.store.settings)),
+                               request.store.settings.width, request.store.settings.height,
+                               policies(), options);
   measure_anew();
-  owes_first_picture_ = request.frame > 0;
+  owes_first_picture_ = request.lanes.frame > 0;
   board_.describe(*lab_);
   publish_status();
 }
@@ -130,17 +125,17 @@ void LabWorker::change_lab() {
     reached = std::max(reached, lane.frame());
   }
   FilmStatistics statistics;
-  statistics.variance = request.variance;
-  lab_->set_lanes(policies(), statistics, request.reference);
+  statistics.variance = request.lanes.variance;
+  lab_->set_lanes(policies(), statistics, request.lanes.reference);
   if (is_answered_by_shown()) {
     publish_shown_again();
     return;
   }
-  lab_->rewind_past(request.frame);
-  if (measure_anew() && request.reference) {
+  lab_->rewind_past(request.lanes.frame);
+  if (measure_anew() && request.lanes.reference) {
     lab_->rewind_past(0);  // the frames of before are to be measured too
   }
-  replays_to_ = std::min(reached, request.frame);
+  replays_to_ = std::min(reached, request.lanes.frame);
   replaying_ = lab_->frame() < replays_to_;
   replay_start_ = Clock::now();
 }
@@ -149,11 +144,11 @@ void LabWorker::change_lab() {
 /// reference or metric, so that those of before are forgotten.
 bool LabWorker::measure_anew() {
   const LabRequest& request = current_->request;
-  if (measured_against_ == request.reference && measured_in_ == request.metric) {
+  if (measured_against_ == request.lanes.reference && measured_in_ == request.lanes.metric) {
     return false;
   }
-  measured_against_ = request.reference;
-  measured_in_ = request.metric;
+  measured_against_ = request.lanes.reference;
+  measured_in_ = request.lanes.metric;
   lab_->forget_true_errors();
   return true;
 }
@@ -168,7 +163,7 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
     if (gives_way()) {
       return mailbox_.take();
     }
-    if (lab_->frame() < current_->request.frame) {
+    if (lab_->frame() < current_->request.lanes.frame) {
       board_.status.activity = replaying_ ? Activity::replaying : Activity::tracing;
       stop_ = std::stop_source();
       if (tracing_gives_way()) {
@@ -258,20 +253,20 @@ bool LabWorker::lanes_are_together() const {
 
 /// Whether a request without an end has come to one, because no lane wants another sample.
 bool LabWorker::has_run_out() const {
-  return current_->request.frame == LabRequest::no_end &&
+  return current_->request.lanes.frame == LaneRequest::no_end &&
          std::ranges::all_of(asked_lanes(),
                              [](const Lane& lane) { return lane.plan().total == 0; });
 }
 
 std::span<const Lane> LabWorker::asked_lanes() const {
-  return lab_->lanes().first(current_->request.policies.size());
+  return lab_->lanes().first(current_->request.lanes.policies.size());
 }
 
 bool LabWorker::snapshot_is_due() const {
   if (!lanes_are_together()) {
     return false;
   }
-  if (!shown_ || lab_->frame() == current_->request.frame || has_run_out()) {
+  if (!shown_ || lab_->frame() == current_->request.lanes.frame || has_run_out()) {
     return true;
   }
   const auto interval = lab_->frame() > shown_->frame ? snapshot_interval : replay_interval;
@@ -280,20 +275,16 @@ bool LabWorker::snapshot_is_due() const {
 
 /// Whether what was published last, for a request before, is all that is asked for.
 bool LabWorker::is_answered_by_shown() const {
-  const LabRequest& request = current_->request;
-  return shown_ && shown_->frame == request.frame && shown_variance_ == request.variance &&
-         shown_->reference == request.reference &&
-         (!request.reference || shown_->metric == request.metric) &&
-         std::ranges::equal(shown_->lanes, request.policies, {}, &LaneSnapshot::policy);
+  return shown_ && shown_lanes_ == current_->request.lanes;
 }
 
 void LabWorker::publish_lanes() {
   std::unique_ptr<Snapshot> snapshot = pool_->take();
   copy_lanes(*lab_, *snapshot, measured_against_ != nullptr);
   snapshot->metric = measured_in_;
-  snapshot->scene = current_->request.scene;
-  snapshot->settings = current_->request.settings;
-  snapshot->reference = current_->request.reference;
+  snapshot->scene = current_->request.store.scene;
+  snapshot->settings = current_->request.store.settings;
+  snapshot->reference = current_->request.lanes.reference;
   publish(std::move(snapshot));
 }
 
@@ -308,10 +299,11 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   snapshot->number = ++published_;
   snapshot->request = current_->number;
   shown_ = pool_->publish(std::move(snapshot));
-  shown_variance_ = current_->request.variance;
+  shown_lanes_ = current_->request.lanes;
+  shown_lanes_.frame = shown_->frame;
   owes_first_picture_ = false;
   answered_ = true;
-  complete_ = shown_->frame == current_->request.frame || has_run_out();
+  complete_ = shown_->frame == current_->request.lanes.frame || has_run_out();
   published_at_ = Clock::now();
   if (complete_ && mailbox_.waiting() == Mailbox::Waiting::nothing) {
     board_.status.activity = Activity::idle;

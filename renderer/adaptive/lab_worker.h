@@ -70,7 +70,7 @@ class LabWorker {
   bool owes_first_picture_ = false;
 
   std::shared_ptr<const Snapshot> shown_;  // the last one published of this lab
-  bool shown_variance_ = false;
+  LaneRequest shown_lanes_;                // that it answers
   std::uint64_t published_ = 0;
   Clock::time_point published_at_;
 

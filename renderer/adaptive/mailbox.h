@@ -1,69 +1,55 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
+#include <cstdint>
 #include <memory>
-#include <mutex>
 
 #include "renderer/adaptive/session.h"
+#include "renderer/latest.h"
+#include "renderer/request_slot.h"
 
 namespace quartet {
 
 /// What passes between a session's users and its thread: one request, the newest, on the way down;
-/// one snapshot and one status, the latest, on the way up. The lock guards nothing but moves of a
-/// few pointers. Safe to use from many threads.
+/// one snapshot and one status, the latest, on the way up. Safe to use from many threads, and what
+/// is done under a lock is as little as RequestSlot and Latest say.
 class Mailbox {
  public:
-  struct Numbered {
-    std::uint64_t number;
-    LabRequest request;
-  };
+  using Numbered = RequestSlot<LabRequest>::Numbered;
 
   /// What a waiting request asks for, against the one submitted before it.
   enum class Waiting { nothing, other_lanes, other_store };
 
   // For users.
   std::uint64_t submit(LabRequest request);
-  std::shared_ptr<const Snapshot> latest() const;
   /// Null before the first one.
-  std::shared_ptr<const SessionStatus> status() const;
+  std::shared_ptr<const Snapshot> latest() const { return snapshot_.get(); }
+  /// Null before the first one.
+  std::shared_ptr<const SessionStatus> status() const { return status_.get(); }
   bool busy() const {
     return waiting() != Waiting::nothing || working_.load(std::memory_order_relaxed);
   }
-  void close();
+  void close() { requests_.close(); }
 
   // For the session's thread.
   Waiting waiting() const { return waiting_.load(std::memory_order_relaxed); }
-  bool closed() const { return closed_.load(std::memory_order_relaxed); }
+  bool closed() const { return requests_.closed(); }
   /// The waiting request; null if there is none.
   std::unique_ptr<Numbered> take();
   /// Sleeps until there is one; null once closed.
   std::unique_ptr<Numbered> wait_and_take();
-  void publish(std::shared_ptr<const Snapshot> snapshot);
-  void publish(std::shared_ptr<const SessionStatus> status);
+  void publish(std::shared_ptr<const Snapshot> snapshot) { snapshot_.publish(std::move(snapshot)); }
+  void publish(std::shared_ptr<const SessionStatus> status) { status_.publish(std::move(status)); }
   /// Whether there is work under way: what busy() says beside a request that waits.
   void set_working(bool working) { working_.store(working, std::memory_order_relaxed); }
 
  private:
-  /// Which store a request needs. Only compared: the scene may be gone.
-  struct StoreKey {
-    const TraceScene* scene = nullptr;
-    RenderSettings settings;
-    std::size_t memory = 0;
-    int threads = 0;
-    bool operator==(const StoreKey&) const = default;
-  };
-
-  mutable std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::unique_ptr<Numbered> request_;
-  std::uint64_t submitted_ = 0;
-  StoreKey newest_;
-  std::shared_ptr<const Snapshot> latest_;
-  std::shared_ptr<const SessionStatus> status_;
+  RequestSlot<LabRequest> requests_;
+  StoreRequest newest_store_;  // under the lock of the requests
   std::atomic<Waiting> waiting_ = Waiting::nothing;
   std::atomic<bool> working_ = false;
-  std::atomic<bool> closed_ = false;
+  Latest<Snapshot> snapshot_;
+  Latest<SessionStatus> status_;
 };
 
 }  // namespace quartet

@@ -6,33 +6,11 @@
 #include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
+#include "renderer/adaptive/lab_request.h"
 #include "renderer/adaptive/snapshot.h"
-#include "renderer/measure/metrics.h"
 
 namespace quartet {
-
-/// Everything that a window asks of the renderer. The newest request wins; what it changes decides
-/// what is redone. Scene, settings, memory or threads: a new store. A lane's policy: that lane
-/// replays from frame 1. Variance, reference or metric: all lanes replay. A lower frame: all lanes
-/// replay up to it. A higher one: they go on.
-struct LabRequest {
-  static constexpr std::uint32_t no_end = UINT32_MAX;
-
-  std::shared_ptr<const TraceScene> scene;
-  RenderSettings settings;
-  std::vector<SamplingPolicy> policies;  ///< one a lane; at least one
-  std::uint32_t frame = 15;              ///< where the lanes shall stand, from 1; or no_end
-  bool variance = false;                 ///< snapshots carry the variance of the mean
-  /// The truth, of the size of the pictures; null if there is none, and then no estimator may need
-  /// it. With one, snapshots carry each lane's error against it, frame by frame, and a lane of
-  /// uniform sampling to compare with.
-  std::shared_ptr<const RadianceImage> reference;
-  MetricId metric = MetricId::relmse;         ///< of these errors
-  std::size_t memory = std::size_t(2) << 30;  ///< of the sample store, bytes
-  int threads = 0;                            ///< 0: one a processor
-};
 
 /// What the renderer is doing.
 struct SessionStatus {
@@ -59,10 +37,10 @@ class Mailbox;
 /// neither allocate nor free under a lock.
 ///
 /// A new store's first frame is always finished and published before the next request is taken, so
-/// that each step of a camera drag shows something. A request that only changes policies or frame
-/// lets the one under way replay what is stored and publish it; tracing gives way to it unless
-/// nothing has been published for as long as that tracing has lasted, so that no drag, however
-/// fast, goes without pictures for ever.
+/// that each step of a camera drag shows something. A request that keeps the store lets the one
+/// under way replay what is stored and publish it; tracing gives way to it unless nothing has been
+/// published for as long as that tracing has lasted, so that no drag, however fast, goes without
+/// pictures for ever.
 class Session {
  public:
   /// `notify` is called on the session's thread after each new snapshot or status, to wake an event
@@ -75,7 +53,7 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Returns the request's number, from 1.
+  /// The newest request wins. Returns its number, from 1.
   std::uint64_t submit(LabRequest request);
   /// Null before the first one.
   std::shared_ptr<const Snapshot> latest() const;

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <stop_token>
 #include <thread>
 #include <utility>
+
+#include "renderer/latest.h"
+#include "renderer/request_slot.h"
 
 namespace quartet {
 
@@ -41,63 +41,40 @@ class BackgroundTask {
 
   /// Returns the input's number, from 1.
   std::uint64_t submit(Input input) {
-    std::optional<Input> old(std::move(input));
-    std::uint64_t number = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      number = ++submitted_;
-      waiting_.swap(old);
-      stop_.request_stop();
-    }
-    arrived_.notify_one();
+    std::stop_source under_way(std::nostopstate);
+    const std::uint64_t number = inputs_.put(std::move(input), [&] { under_way = stop_; });
+    under_way.request_stop();
     return number;
   }
 
   /// Asks the work under way to stop; no other is begun. So several tasks can end at the same time.
   void close() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-      stop_.request_stop();
-    }
-    arrived_.notify_one();
+    std::stop_source under_way(std::nostopstate);
+    inputs_.close([&] { under_way = stop_; });
+    under_way.request_stop();
   }
 
   /// Never null.
-  std::shared_ptr<const Answer> latest() const {
-    const std::lock_guard lock(mutex_);
-    return latest_;
-  }
+  std::shared_ptr<const Answer> latest() const { return latest_.get(); }
 
  private:
+  using Numbered = typename RequestSlot<Input>::Numbered;
+
   void run() {
     for (;;) {
-      std::optional<Input> input;
-      std::stop_token stop;
-      std::uint64_t number = 0;
-      {
-        std::unique_lock lock(mutex_);
-        arrived_.wait(lock, [this] { return closed_ || waiting_; });
-        if (closed_) {
-          return;
-        }
-        input.swap(waiting_);
-        number = submitted_;
-        stop_ = std::stop_source();
-        stop = stop_.get_token();
+      std::stop_source own;
+      const std::stop_token stop = own.get_token();
+      const std::unique_ptr<Numbered> taken = inputs_.wait_and_take([&] { stop_.swap(own); });
+      if (!taken) {
+        return;
       }
-      work_(*input, stop, [&](Output output) { publish(number, std::move(output)); });
+      work_(taken->request, stop,
+            [&](Output output) { publish(taken->number, std::move(output)); });
     }
   }
 
   void publish(std::uint64_t number, Output output) {
-    std::shared_ptr<const Answer> answer =
-        std::make_shared<const Answer>(Answer{number, std::move(output)});
-    {
-      const std::lock_guard lock(mutex_);
-      latest_.swap(answer);
-    }
-    // The answer before goes with the pointer, after the lock.
+    latest_.publish(std::make_shared<const Answer>(Answer{number, std::move(output)}));
     if (notify_) {
       notify_();
     }
@@ -105,13 +82,9 @@ class BackgroundTask {
 
   Work work_;
   std::function<void()> notify_;
-  mutable std::mutex mutex_;
-  std::condition_variable arrived_;
-  std::optional<Input> waiting_;
-  std::uint64_t submitted_ = 0;
-  std::shared_ptr<const Answer> latest_ = std::make_shared<const Answer>();
-  std::stop_source stop_;
-  bool closed_ = false;
+  RequestSlot<Input> inputs_;
+  std::stop_source stop_;  // of the work under way; under the lock of the inputs
+  Latest<Answer> latest_{std::make_shared<const Answer>()};
   std::thread thread_;  // last: it uses all the others
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "renderer/adaptive/run_lab.h"
 #include "renderer/measure/interval.h"
 #include "renderer/parallel.h"
 #include "renderer/trace/running_mean.h"
@@ -125,11 +126,12 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
     LabOptions lab_options = options;
     lab_options.pilot_source = pilot_source(scene, own);
     Lab lab(source, own.width, own.height, lanes, lab_options);
-    for (std::uint32_t frame = 0; frame < frames; ++frame) {
-      if (stop.stop_requested() || !lab.run_frame(stop)) {
-        return {};
-      }
-      progress((k + 0.8 * double(frame + 1) / double(frames)) / double(seeds));
+    const bool ended = run_lab(lab, stop, [&] {
+      progress((k + 0.8 * double(lab.frame()) / double(frames)) / double(seeds));
+      return lab.frame() < frames;
+    });
+    if (!ended) {
+      return {};
     }
     // Both modes of a policy against the same uniform picture.
     const auto uniform_spp = [&](std::size_t lane) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "renderer/adaptive/run_lab.h"
+
 namespace quartet {
 namespace {
 
@@ -144,12 +146,14 @@ class ClaimLab {
                      ClaimRun& run) {
     lab_.set_policy(0, default_policy(id));
     FireflyWatch watch(lab_, source_, *world_.reference, regions_);
-    while (lane().frame() < frames) {
-      const std::vector<std::uint16_t> wanted = lane().plan().wanted;
-      if (!advance()) {
-        return false;
-      }
+    std::vector<std::uint16_t> wanted = lane().plan().wanted;
+    const bool ended = run_lab(lab_, stop_, [&] {
       watch.look(wanted);
+      wanted = lane().plan().wanted;
+      return lane().frame() < frames;
+    });
+    if (!ended) {
+      return false;
     }
     run.firefly = watch.response();
     run.seconds = lane().history().back().seconds;
@@ -169,10 +173,7 @@ class ClaimLab {
     std::vector<ErrorCurve::Point> relmse;
     std::vector<ErrorCurve::Point> flip;
     double before = 0.0;
-    do {
-      if (!advance()) {
-        return false;
-      }
+    const bool ended = run_lab(lab_, stop_, [&] {
       const double seconds = lane().history().back().seconds;
       // FLIP takes longer than a frame: only next to where it is asked for.
       const auto is_near = [&](const ClaimRun& run) {
@@ -184,7 +185,11 @@ class ClaimLab {
         flip.push_back({seconds, error(MetricId::flip)});
       }
       before = seconds;
-    } while (before < longest);
+      return seconds < longest;
+    });
+    if (!ended) {
+      return false;
+    }
     ErrorCurve relmse_curve(std::move(relmse));
     ErrorCurve flip_curve(std::move(flip));
     relmse_curve.slope_beyond = slope_of(metric(MetricId::relmse));
@@ -199,7 +204,6 @@ class ClaimLab {
   const Lane& lane() const { return lab_.lanes().front(); }
 
  private:
-  bool advance() { return lab_.run_frame(stop_) && !stop_.stop_requested(); }
   double error(MetricId id) const {
     return metric(id).compute(lane().film().image(), *world_.reference);
   }

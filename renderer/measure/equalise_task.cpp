@@ -13,16 +13,15 @@ struct Bench {
   std::unique_ptr<Experiment> experiment;
 
   Experiment& prepare(const EqualiseRequest& request) {
-    if (!experiment || made_for.scene != request.scene || made_for.settings != request.settings ||
-        made_for.reference != request.reference || made_for.memory != request.memory ||
-        made_for.threads != request.threads) {
+    if (!experiment || made_for.store != request.store || made_for.reference != request.reference) {
       experiment.reset();
       LabOptions options;
-      options.threads = request.threads;
-      options.memory = request.memory;
-      experiment = std::make_unique<Experiment>(sample_source(request.scene, request.settings),
-                                                request.settings.width, request.settings.height,
-                                                options, request.reference);
+      options.threads = request.store.threads;
+      options.memory = request.store.memory;
+      const RenderSettings& settings = request.store.settings;
+      experiment =
+          std::make_unique<Experiment>(sample_source(request.store.scene, settings), settings.width,
+                                       settings.height, options, request.reference);
       made_for = request;
     }
     return *experiment;
@@ -35,7 +34,7 @@ void answer(Bench& bench, const EqualiseRequest& request, const std::stop_token&
   status.lanes = request.policies.size();
   publish(status);
   try {
-    for (std::size_t i = 0; request.scene && i < request.policies.size(); ++i) {
+    for (std::size_t i = 0; request.store.scene && i < request.policies.size(); ++i) {
       std::optional<Calibration> found =
           calibrate(bench.prepare(request), request.policies[i], request.budget, stop);
       if (!found) {

@@ -5,21 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "renderer/adaptive/lab_request.h"
 #include "renderer/measure/background_task.h"
 #include "renderer/measure/calibrate.h"
-#include "renderer/trace/integrator.h"
 
 namespace quartet {
 
 /// Lanes that are to get, or to reach, the same.
 struct EqualiseRequest {
-  std::shared_ptr<const TraceScene> scene;  ///< null: nothing is wanted any more
-  RenderSettings settings;
+  StoreRequest store;  ///< without a scene: nothing is wanted any more
   std::vector<SamplingPolicy> policies;
   CommonBudget budget;
   std::shared_ptr<const RadianceImage> reference;  ///< for an error as the budget
-  std::size_t memory = std::size_t(1) << 30;       ///< of the samples kept between two requests
-  int threads = 0;                                 ///< 0: one a processor
 };
 
 struct EqualiseStatus {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "renderer/adaptive/effort.h"
+#include "renderer/adaptive/run_lab.h"
 #include "renderer/parallel.h"
 
 namespace quartet {
@@ -57,17 +58,18 @@ std::optional<std::vector<Measurement>> Experiment::run(
   }
   lab_.set_policy(0, plan.policy);
   std::vector<Measurement> measurements;
-  for (double done = 0.0; done < 1.0;) {
-    if (stop.stop_requested() || !lab_.run_frame(stop)) {
-      return std::nullopt;
-    }
-    done = plan.stop.progress(lane(), reference_.get());
+  const bool ended = run_lab(lab_, stop, [&] {
+    const double done = plan.stop.progress(lane(), reference_.get());
     if (done >= 1.0 || is_measured(plan.measure_at, lane().frame())) {
       measurements.push_back(measure(plan.metrics));
     }
     if (progress) {
       progress(std::min(done, 1.0));
     }
+    return done < 1.0;
+  });
+  if (!ended) {
+    return std::nullopt;
   }
   samples_used_ += measurements.back().record.samples;
   return measurements;

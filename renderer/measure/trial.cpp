@@ -4,6 +4,7 @@
 #include <array>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/adaptive/run_lab.h"
 #include "renderer/measure/calibrate.h"
 
 namespace quartet {
@@ -74,17 +75,8 @@ std::vector<SamplingPolicy> policies_of(const std::vector<Entry>& entries) {
   return policies;
 }
 
-/// Until no lane wants a sample. Returns false if `stop` ended it; `before_frame` is told before
-/// each one.
-template <class BeforeFrame>
-bool run_to_end(Lab& lab, const std::stop_token& stop, const BeforeFrame& before_frame) {
-  while (std::ranges::any_of(lab.lanes(), [](const Lane& lane) { return lane.plan().total > 0; })) {
-    before_frame();
-    if (!lab.run_frame(stop) || stop.stop_requested()) {
-      return false;
-    }
-  }
-  return true;
+bool wants_samples(const Lab& lab) {
+  return std::ranges::any_of(lab.lanes(), [](const Lane& lane) { return lane.plan().total > 0; });
 }
 
 Trial trial_of(const TrialSetup& setup, const Entry& entry, std::uint64_t seed, const Lane& lane,
@@ -107,10 +99,18 @@ bool run_entries(const TrialSetup& setup, const std::vector<Entry>& entries,
   Lab lab(source, width, height, policies_of(entries), options);
   const PixelRegion region = pixels_of(setup.failure->region, width, height);
   std::vector<Observation> observations(entries.size(), Observation(truth, region, setup.target));
-  const bool ended = run_to_end(lab, stop, [&] {
+  const auto observe = [&] {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       observations[i].before_frame(lab.lanes()[i]);
     }
+  };
+  observe();
+  const bool ended = run_lab(lab, stop, [&] {
+    const bool another = wants_samples(lab);
+    if (another) {
+      observe();
+    }
+    return another;
   });
   for (std::size_t i = 0; ended && i < entries.size(); ++i) {
     const Lane& lane = lab.lanes()[i];
@@ -169,7 +169,7 @@ bool run_enlarged(const TrialSetup& setup, std::uint64_t seed, const std::stop_t
   options.threads = 1;
   Lab lab(sample_source(setup.scene, settings), settings.width, settings.height,
           policies_of(entries), options);
-  const bool ended = run_to_end(lab, stop, [] {});
+  const bool ended = run_lab(lab, stop, [&] { return wants_samples(lab); });
   const PixelRegion region =
       pixels_of(setup.failure->region, setup.settings.width, setup.settings.height);
   for (std::size_t i = 0; ended && i < entries.size(); ++i) {

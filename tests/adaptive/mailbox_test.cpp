@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 namespace quartet {
 namespace {
 
@@ -10,8 +12,8 @@ using Waiting = Mailbox::Waiting;
 /// A request that can be told from others by its frame.
 LabRequest request(std::uint32_t frame, std::uint64_t seed = 0) {
   LabRequest made;
-  made.frame = frame;
-  made.settings.seed = seed;
+  made.lanes.frame = frame;
+  made.store.settings.seed = seed;
   return made;
 }
 
@@ -24,7 +26,7 @@ TEST(Mailbox, OfSeveralRequestsTheNewestIsTaken) {
   const auto taken = mailbox.take();
   ASSERT_TRUE(taken);
   EXPECT_EQ(taken->number, 3u);
-  EXPECT_EQ(taken->request.frame, 30u);
+  EXPECT_EQ(taken->request.lanes.frame, 30u);
   EXPECT_EQ(mailbox.take(), nullptr) << "the others are dropped";
 
   EXPECT_EQ(mailbox.submit(request(40)), 4u);
@@ -32,7 +34,7 @@ TEST(Mailbox, OfSeveralRequestsTheNewestIsTaken) {
   const auto waited = mailbox.wait_and_take();
   ASSERT_TRUE(waited);
   EXPECT_EQ(waited->number, 5u);
-  EXPECT_EQ(waited->request.frame, 50u);
+  EXPECT_EQ(waited->request.lanes.frame, 50u);
 }
 
 TEST(Mailbox, SaysWhatTheWaitingRequestsNeed) {
@@ -53,16 +55,33 @@ TEST(Mailbox, SaysWhatTheWaitingRequestsNeed) {
   EXPECT_EQ(mailbox.waiting(), Waiting::other_store) << "the store of the one before is not there";
   mailbox.wait_and_take();
   EXPECT_EQ(mailbox.waiting(), Waiting::nothing);
+}
 
-  LabRequest memory = request(3, 1);
-  memory.memory /= 2;
-  mailbox.submit(memory);
-  EXPECT_EQ(mailbox.waiting(), Waiting::other_store);
+/// What the mailbox says of a request that differs from the one before it by a change.
+Waiting after(const std::function<void(LabRequest&)>& change) {
+  Mailbox mailbox;
+  LabRequest changed = request(3);
+  mailbox.submit(changed);
   mailbox.take();
-  LabRequest threads = memory;
-  threads.threads = 7;
-  mailbox.submit(threads);
-  EXPECT_EQ(mailbox.waiting(), Waiting::other_store);
+  change(changed);
+  mailbox.submit(changed);
+  return mailbox.waiting();
+}
+
+TEST(Mailbox, OnlyOtherSamplesOrAnotherWayToKeepThemNeedAnotherStore) {
+  const auto scene = std::make_shared<const TraceScene>(Scene());
+  EXPECT_EQ(after([&](LabRequest& r) { r.store.scene = scene; }), Waiting::other_store);
+  EXPECT_EQ(after([](LabRequest& r) { r.store.settings.max_depth = 3; }), Waiting::other_store);
+  EXPECT_EQ(after([](LabRequest& r) { r.store.memory /= 2; }), Waiting::other_store);
+  EXPECT_EQ(after([](LabRequest& r) { r.store.threads = 7; }), Waiting::other_store);
+
+  const auto truth = std::make_shared<const RadianceImage>(1, 1);
+  EXPECT_EQ(after([](LabRequest& r) { r.lanes.policies.resize(2); }), Waiting::other_lanes);
+  EXPECT_EQ(after([](LabRequest& r) { r.lanes.frame = 1; }), Waiting::other_lanes);
+  EXPECT_EQ(after([](LabRequest& r) { r.lanes.variance = true; }), Waiting::other_lanes);
+  EXPECT_EQ(after([&](LabRequest& r) { r.lanes.reference = truth; }), Waiting::other_lanes);
+  EXPECT_EQ(after([](LabRequest& r) { r.lanes.metric = MetricId::flip; }), Waiting::other_lanes);
+  EXPECT_EQ(after([](LabRequest&) {}), Waiting::other_lanes);
 }
 
 TEST(Mailbox, BringsUpTheLatestOfEach) {

@@ -26,15 +26,15 @@ inline std::shared_ptr<const TraceScene> cornell_checker() {
 
 inline LabRequest four_lanes() {
   LabRequest request;
-  request.scene = cornell_checker();
-  request.settings = default_settings(request.scene->scene());
-  request.settings.width = width;
-  request.settings.height = height;
-  request.frame = frames;
-  request.threads = 2;
+  request.store.scene = cornell_checker();
+  request.store.settings = default_settings(request.store.scene->scene());
+  request.store.settings.width = width;
+  request.store.settings.height = height;
+  request.lanes.frame = frames;
+  request.store.threads = 2;
   for (const EstimatorId id :
        {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
-    request.policies.push_back(default_policy(id));
+    request.lanes.policies.push_back(default_policy(id));
   }
   return request;
 }
@@ -57,18 +57,18 @@ inline std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uin
 
 inline std::shared_ptr<const Snapshot> answer(Session& session, const LabRequest& request) {
   const std::uint64_t number = session.submit(request);
-  return wait_for(session, number, request.frame);
+  return wait_for(session, number, request.lanes.frame);
 }
 
 inline Snapshot headless(const LabRequest& request) {
   LabOptions options;
   options.threads = 1;
-  options.statistics.variance = request.variance;
-  options.reference = request.reference;
-  options.pilot_source = pilot_source(request.scene, request.settings);
-  Lab lab(sample_source(request.scene, request.settings), request.settings.width,
-          request.settings.height, request.policies, options);
-  while (lab.frame() < request.frame) {
+  options.statistics.variance = request.lanes.variance;
+  options.reference = request.lanes.reference;
+  options.pilot_source = pilot_source(request.store.scene, request.store.settings);
+  Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
+          request.store.settings.height, request.lanes.policies, options);
+  while (lab.frame() < request.lanes.frame) {
     lab.run_frame();
   }
   Snapshot snapshot;
@@ -107,8 +107,8 @@ inline void expect_same(const Snapshot& a, const Snapshot& b) {
 inline void expect_as_headless(Session& session, const LabRequest& request) {
   const auto snapshot = answer(session, request);
   ASSERT_TRUE(snapshot);
-  EXPECT_EQ(snapshot->scene, request.scene);
-  EXPECT_EQ(snapshot->settings, request.settings);
+  EXPECT_EQ(snapshot->scene, request.store.scene);
+  EXPECT_EQ(snapshot->settings, request.store.settings);
   expect_same(*snapshot, headless(request));
 }
 

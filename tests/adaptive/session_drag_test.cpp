@@ -20,7 +20,7 @@ TEST(SessionThreads, EveryStepOfACameraDragShowsAPicture) {
   std::uint64_t pictures = 0;
   std::shared_ptr<const Snapshot> last;
   for (int step = 0; step < 300; ++step) {
-    request.settings.camera.origin.x += 0.001f;
+    request.store.settings.camera.origin.x += 0.001f;
     number = session.submit(request);
     const auto snapshot = session.latest();
     pictures += snapshot && snapshot != last;
@@ -28,7 +28,7 @@ TEST(SessionThreads, EveryStepOfACameraDragShowsAPicture) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_GE(pictures, 3u) << "while it was dragged";
-  const auto settled = wait_for(session, number, request.frame);
+  const auto settled = wait_for(session, number, request.lanes.frame);
   ASSERT_TRUE(settled);
   expect_same(*settled, headless(request));
 }
@@ -56,54 +56,55 @@ void drag(Session& session, LabRequest& request, int steps, Change change) {
 TEST(SessionThreads, AFastDragOfAThresholdShowsPicturesAndEndsRight) {
   Session session;
   LabRequest request = four_lanes();
-  request.settings.width *= 4;
-  request.settings.height *= 4;
+  request.store.settings.width *= 4;
+  request.store.settings.height *= 4;
   ASSERT_TRUE(answer(session, request));
-  const float threshold = request.policies[1].thresholds[0];
+  const float threshold = request.lanes.policies[1].thresholds[0];
   // Into what is not yet traced.
   drag(session, request, 1000, [&](LabRequest& dragged, int step) {
-    dragged.policies[1].thresholds[0] = threshold * std::pow(0.997f, float(step % 1500));
+    dragged.lanes.policies[1].thresholds[0] = threshold * std::pow(0.997f, float(step % 1500));
   });
-  request.frame = 6;
+  request.lanes.frame = 6;
   expect_as_headless(session, request);
 }
 
 TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
   Session session;
   LabRequest request = four_lanes();
-  request.reference = grey_reference(0.3f);
+  request.lanes.reference = grey_reference(0.3f);
   drag(session, request, 600, [](LabRequest& changed, int step) {
-    const auto lane = std::size_t(step) % changed.policies.size();
+    const auto lane = std::size_t(step) % changed.lanes.policies.size();
     switch (step % 9) {
       case 0:
-        changed.frame = 1 + std::uint32_t(step) % 11;
+        changed.lanes.frame = 1 + std::uint32_t(step) % 11;
         break;
       case 1:
-        changed.policies[lane].max_spp = 3 + std::uint32_t(step) % 17;
+        changed.lanes.policies[lane].max_spp = 3 + std::uint32_t(step) % 17;
         break;
       case 2:
-        changed.policies[lane] =
+        changed.lanes.policies[lane] =
             default_policy(estimators()[std::size_t(step) % estimators().size()].key);
         break;
       case 3:
         if (step % 4 == 0) {
-          changed.settings.seed = std::uint64_t(step);
+          changed.store.settings.seed = std::uint64_t(step);
         }
         break;
       case 4:
-        changed.variance = step % 3 == 0;
+        changed.lanes.variance = step % 3 == 0;
         break;
       case 5:
-        changed.policies.resize(1 + std::size_t(step) % 5, default_policy(EstimatorId::chi2));
+        changed.lanes.policies.resize(1 + std::size_t(step) % 5, default_policy(EstimatorId::chi2));
         break;
       case 6:
-        changed.policies[lane].use = sample_uses()[std::size_t(step) % sample_uses().size()].key;
+        changed.lanes.policies[lane].use =
+            sample_uses()[std::size_t(step) % sample_uses().size()].key;
         break;
       case 7:
-        changed.reference = grey_reference(0.1f * float(step % 4));
+        changed.lanes.reference = grey_reference(0.1f * float(step % 4));
         break;
       default:
-        changed.policies[lane].thresholds[0] *= 0.9f;
+        changed.lanes.policies[lane].thresholds[0] *= 0.9f;
     }
   });
   expect_as_headless(session, request);

@@ -23,16 +23,16 @@ std::shared_ptr<const RadianceImage> picture_of(float level, int w = width, int 
 std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
   LabOptions options;
   options.threads = 1;
-  std::vector<SamplingPolicy> policies = request.policies;
+  std::vector<SamplingPolicy> policies = request.lanes.policies;
   policies.push_back(default_policy(EstimatorId::uniform));
-  Lab lab(sample_source(request.scene, request.settings), request.settings.width,
-          request.settings.height, policies, options);
+  Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
+          request.store.settings.height, policies, options);
   std::vector<std::vector<double>> errors(policies.size());
-  while (lab.frame() < request.frame) {
+  while (lab.frame() < request.lanes.frame) {
     lab.run_frame();
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      errors[i].push_back(
-          metric(request.metric).compute(lab.lanes()[i].film().image(), *request.reference));
+      errors[i].push_back(metric(request.lanes.metric)
+                              .compute(lab.lanes()[i].film().image(), *request.lanes.reference));
     }
   }
   return errors;
@@ -49,10 +49,10 @@ std::vector<double> true_errors(const LaneSnapshot& lane) {
 void expect_errors(Session& session, const LabRequest& request) {
   const auto snapshot = answer(session, request);
   ASSERT_TRUE(snapshot);
-  EXPECT_EQ(snapshot->reference, request.reference);
-  EXPECT_EQ(snapshot->metric, request.metric);
+  EXPECT_EQ(snapshot->reference, request.lanes.reference);
+  EXPECT_EQ(snapshot->metric, request.lanes.metric);
   const auto errors = headless_errors(request);
-  ASSERT_EQ(snapshot->lanes.size(), request.policies.size());
+  ASSERT_EQ(snapshot->lanes.size(), request.lanes.policies.size());
   ASSERT_TRUE(snapshot->baseline);
   for (std::size_t i = 0; i < snapshot->lanes.size(); ++i) {
     EXPECT_EQ(true_errors(snapshot->lanes[i]), errors[i]) << "lane " << i + 1;
@@ -60,7 +60,7 @@ void expect_errors(Session& session, const LabRequest& request) {
   EXPECT_EQ(true_errors(*snapshot->baseline), errors.back());
   EXPECT_EQ(snapshot->baseline->policy, default_policy(EstimatorId::uniform));
   EXPECT_EQ(snapshot->baseline->history.back().samples,
-            std::uint64_t(request.frame) * snapshot->pixels());
+            std::uint64_t(request.lanes.frame) * snapshot->pixels());
   expect_same(*snapshot, headless(request));
 }
 
@@ -72,46 +72,46 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
   EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.back().true_error));
   {
     SCOPED_TRACE("a reference for frames that have been run");
-    request.reference = picture_of(0.5f);
+    request.lanes.reference = picture_of(0.5f);
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("a threshold");
-    request.policies[1].thresholds[0] *= 0.5f;
+    request.lanes.policies[1].thresholds[0] *= 0.5f;
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("another metric");
-    request.metric = MetricId::rmse;
+    request.lanes.metric = MetricId::rmse;
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("another reference");
-    request.reference = picture_of(0.25f);
+    request.lanes.reference = picture_of(0.25f);
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("a lower frame and a higher one");
-    request.frame = 3;
+    request.lanes.frame = 3;
     expect_errors(session, request);
-    request.frame = 10;
+    request.lanes.frame = 10;
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("lanes");
-    request.policies.pop_back();
+    request.lanes.policies.pop_back();
     expect_errors(session, request);
-    request.policies.push_back(default_policy(EstimatorId::chi2));
+    request.lanes.policies.push_back(default_policy(EstimatorId::chi2));
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("seed");
-    request.settings.seed = 7;
+    request.store.settings.seed = 7;
     expect_errors(session, request);
   }
   {
     SCOPED_TRACE("none");
-    request.reference.reset();
+    request.lanes.reference.reset();
     expect_as_headless(session, request);
     EXPECT_FALSE(session.latest()->baseline);
     EXPECT_FALSE(session.latest()->reference);
@@ -122,12 +122,12 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
 TEST(SessionThreads, ErrorsAreRightAfterManyChangesThatWereNotWaitedFor) {
   Session session;
   LabRequest request = four_lanes();
-  request.reference = picture_of(0.5f);
+  request.lanes.reference = picture_of(0.5f);
   const LabRequest first = request;
   ASSERT_TRUE(answer(session, request));
   for (int i = 0; i < 60; ++i) {
-    request.policies[std::size_t(i) % 4].thresholds[0] *= i % 2 == 0 ? 0.9f : 1.1f;
-    request.metric = i % 5 == 0 ? MetricId::mse : MetricId::relmse;
+    request.lanes.policies[std::size_t(i) % 4].thresholds[0] *= i % 2 == 0 ? 0.9f : 1.1f;
+    request.lanes.metric = i % 5 == 0 ? MetricId::mse : MetricId::relmse;
     session.submit(request);
     std::this_thread::sleep_for(std::chrono::microseconds(300 * (i % 7)));
     // Back to what is shown already, with lanes that have begun anew.
@@ -135,27 +135,27 @@ TEST(SessionThreads, ErrorsAreRightAfterManyChangesThatWereNotWaitedFor) {
   }
   expect_errors(session, first);
   LabRequest further = first;
-  further.frame = frames + 2;
+  further.lanes.frame = frames + 2;
   expect_errors(session, further);
 }
 
 TEST(SessionThreads, AReferenceOfAnotherSizeIsRefused) {
   Session session;
   LabRequest request = four_lanes();
-  request.reference = picture_of(0.5f, width + 1, height);
+  request.lanes.reference = picture_of(0.5f, width + 1, height);
   session.submit(request);
   EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_EQ(session.status().error, "the reference has 49 × 27 pixels, the pictures 48 × 27");
-  request.reference = picture_of(0.5f);
+  request.lanes.reference = picture_of(0.5f);
   expect_errors(session, request);
 }
 
 TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
   Session session;
   LabRequest request = four_lanes();
-  request.frame = LabRequest::no_end;
-  request.reference = picture_of(0.5f);
-  for (SamplingPolicy& policy : request.policies) {
+  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.reference = picture_of(0.5f);
+  for (SamplingPolicy& policy : request.lanes.policies) {
     policy.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);

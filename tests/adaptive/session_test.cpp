@@ -21,61 +21,61 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   expect_as_headless(session, request);
   {
     SCOPED_TRACE("a threshold");
-    request.policies[1].thresholds[0] *= 0.5f;
+    request.lanes.policies[1].thresholds[0] *= 0.5f;
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("an estimator");
-    request.policies[2] = default_policy(EstimatorId::uniform);
+    request.lanes.policies[2] = default_policy(EstimatorId::uniform);
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("a reference, and another");
-    request.policies[2] = default_policy(EstimatorId::oracle);
-    request.reference = grey_reference(0.3f);
+    request.lanes.policies[2] = default_policy(EstimatorId::oracle);
+    request.lanes.reference = grey_reference(0.3f);
     expect_as_headless(session, request);
-    request.reference = grey_reference(0.5f);
+    request.lanes.reference = grey_reference(0.5f);
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("a mode");
-    request.policies[1].use = SampleUse::unbiased;
+    request.lanes.policies[1].use = SampleUse::unbiased;
     expect_as_headless(session, request);
-    request.policies[1].use = SampleUse::reuse;
+    request.lanes.policies[1].use = SampleUse::reuse;
     expect_as_headless(session, request);
-    request.policies[2] = default_policy(EstimatorId::uniform);
-    request.reference.reset();
+    request.lanes.policies[2] = default_policy(EstimatorId::uniform);
+    request.lanes.reference.reset();
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("a lower frame");
-    request.frame = 3;
+    request.lanes.frame = 3;
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("a higher frame");
-    request.frame = 9;
+    request.lanes.frame = 9;
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("variance");
-    request.variance = true;
+    request.lanes.variance = true;
     expect_as_headless(session, request);
-    request.variance = false;
+    request.lanes.variance = false;
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("lanes");
-    request.policies.pop_back();
+    request.lanes.policies.pop_back();
     expect_as_headless(session, request);
-    request.policies.push_back(default_policy(EstimatorId::hellinger));
-    request.policies.push_back(default_policy(EstimatorId::uniform));
+    request.lanes.policies.push_back(default_policy(EstimatorId::hellinger));
+    request.lanes.policies.push_back(default_policy(EstimatorId::uniform));
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("size and seed");
-    request.settings.width = 31;
-    request.settings.seed = 7;
+    request.store.settings.width = 31;
+    request.store.settings.seed = 7;
     expect_as_headless(session, request);
   }
   {
@@ -84,7 +84,7 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   }
   {
     SCOPED_TRACE("frame 0");
-    request.frame = 0;
+    request.lanes.frame = 0;
     expect_as_headless(session, request);
   }
 }
@@ -92,12 +92,12 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
 TEST(SessionThreads, AnOracleWithoutAReferenceIsAnError) {
   Session session;
   LabRequest request = four_lanes();
-  request.policies[1] = default_policy(EstimatorId::oracle);
+  request.lanes.policies[1] = default_policy(EstimatorId::oracle);
   session.submit(request);
   EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_NE(session.status().error.find("oracle"), std::string::npos) << session.status().error;
   // And the session goes on.
-  request.reference = grey_reference(0.3f);
+  request.lanes.reference = grey_reference(0.3f);
   expect_as_headless(session, request);
 }
 
@@ -118,14 +118,14 @@ TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
   const std::uint64_t stored = stored_samples(session);
   EXPECT_GT(stored, std::uint64_t(width * height * frames));
 
-  request.policies[0].thresholds = {10.0f, 10.0f, 10.0f};
+  request.lanes.policies[0].thresholds = {10.0f, 10.0f, 10.0f};
   ASSERT_TRUE(answer(session, request));
   wait_until_idle(session);
   EXPECT_EQ(stored_samples(session), stored) << "a higher threshold needs nothing new";
   EXPECT_GT(session.status().replay_seconds, 0.0);
 
-  request.settings.camera.origin.x += 0.1f;
-  request.frame = 1;
+  request.store.settings.camera.origin.x += 0.1f;
+  request.lanes.frame = 1;
   ASSERT_TRUE(answer(session, request));
   wait_until_idle(session);
   EXPECT_EQ(stored_samples(session), std::uint64_t(width * height));
@@ -135,7 +135,7 @@ TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
   std::atomic<int> notified = 0;
   Session session([&] { ++notified; });
   LabRequest request = four_lanes();
-  request.frame = LabRequest::no_end;
+  request.lanes.frame = LaneRequest::no_end;
   session.submit(request);
   std::uint64_t last = 0;
   std::uint32_t frame = 0;
@@ -150,7 +150,7 @@ TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
   }
   EXPECT_GE(frame, 5u);
   // To stop where it stands, a window asks for the frame that it shows.
-  request.frame = session.latest()->frame;
+  request.lanes.frame = session.latest()->frame;
   expect_as_headless(session, request);
   wait_until_idle(session);
   EXPECT_EQ(session.status().samples_per_second, 0.0);
@@ -163,8 +163,8 @@ TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
 TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
   Session session;
   LabRequest request = four_lanes();
-  request.frame = LabRequest::no_end;
-  for (SamplingPolicy& policy : request.policies) {
+  request.lanes.frame = LaneRequest::no_end;
+  for (SamplingPolicy& policy : request.lanes.policies) {
     policy.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);
@@ -181,17 +181,17 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
     EXPECT_GE(lane.history.size(), 2u);
   }
   // It can be woken again, and goes on from there.
-  request.policies[0].allocation.kind = AllocationId::vote;
-  request.frame = 6;
+  request.lanes.policies[0].allocation.kind = AllocationId::vote;
+  request.lanes.frame = 6;
   expect_as_headless(session, request);
 }
 
 TEST(SessionThreads, AShortMemoryChangesNothing) {
   Session session;
   LabRequest request = four_lanes();
-  request.memory = 200'000;
+  request.store.memory = 200'000;
   expect_as_headless(session, request);
-  request.policies[3].thresholds[0] *= 0.5f;
+  request.lanes.policies[3].thresholds[0] *= 0.5f;
   expect_as_headless(session, request);
   EXPECT_TRUE(session.status().partial);
 }
@@ -204,14 +204,14 @@ TEST(SessionThreads, AnErrorIsReportedAndTheSessionLivesOn) {
 
   LabRequest impossible = request;
   // More pixels than there are addresses for.
-  impossible.settings.width = impossible.settings.height = 1 << 30;
+  impossible.store.settings.width = impossible.store.settings.height = 1 << 30;
   session.submit(impossible);
   EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_FALSE(session.status().error.empty());
   EXPECT_EQ(session.latest(), before);
 
   LabRequest without_lanes = request;
-  without_lanes.policies.clear();
+  without_lanes.lanes.policies.clear();
   session.submit(without_lanes);
   EXPECT_TRUE(wait_until([&] { return session.status().error == "no lane to render"; }));
   EXPECT_EQ(session.status().error, "no lane to render");
@@ -229,11 +229,11 @@ LabRequest long_frame() {
   walls.flip_normals = true;
   test::add_shape(room, walls, test::diffuse(1.0f));
   LabRequest request;
-  request.scene = std::make_shared<const TraceScene>(std::move(room));
-  request.settings.camera = test::pinhole({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 60.0f);
-  request.settings.width = 1600;
-  request.settings.height = 1200;
-  request.policies = {default_policy(EstimatorId::kl)};
+  request.store.scene = std::make_shared<const TraceScene>(std::move(room));
+  request.store.settings.camera = test::pinhole({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 60.0f);
+  request.store.settings.width = 1600;
+  request.store.settings.height = 1200;
+  request.lanes.policies = {default_policy(EstimatorId::kl)};
   return request;
 }
 
@@ -265,7 +265,7 @@ TEST(SessionThreads, ClosesAtAnyMoment) {
       kept = session.latest();
     }
     // A snapshot outlives its session.
-    EXPECT_TRUE(!kept || kept->lanes.size() == request.policies.size());
+    EXPECT_TRUE(!kept || kept->lanes.size() == request.lanes.policies.size());
   }
 }
 

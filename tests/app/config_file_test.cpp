@@ -22,7 +22,7 @@ TEST(ConfigFile, KeepsWhatTheWindowRemembers) {
   state.view.heat = HeatRange::report;
   state.view.tone_map = ToneMap::filmic;
   state.ui_scale = 1.25f;
-  state.request.metric = MetricId::flip;
+  state.request.lanes.metric = MetricId::flip;
   state.dock.open = false;
   state.dock.height = 240.0f;
   state.dock.effort = Effort::mean_spp;
@@ -39,7 +39,7 @@ TEST(ConfigFile, KeepsWhatTheWindowRemembers) {
   EXPECT_EQ(read.view, state.view);
   EXPECT_EQ(read.ui_scale, state.ui_scale);
   EXPECT_EQ(read.slots, state.slots);
-  EXPECT_EQ(read.request.metric, state.request.metric);
+  EXPECT_EQ(read.request.lanes.metric, state.request.lanes.metric);
   EXPECT_EQ(read.dock.open, state.dock.open);
   EXPECT_EQ(read.dock.height, state.dock.height);
   EXPECT_EQ(read.dock.effort, state.dock.effort);

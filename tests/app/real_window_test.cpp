@@ -104,9 +104,9 @@ std::string output_of(const std::string& command) {
 /// Where things are: in a window of the same size and scene without a display.
 std::map<std::string, ScreenRect> widgets_of_twin() {
   LabHand twin(width, height);
-  twin.state().request.settings = default_settings(twin.state().trace_scene()->scene());
-  twin.state().request.settings.width = 64;
-  twin.state().request.settings.height = 64;
+  twin.state().request.store.settings = default_settings(twin.state().trace_scene()->scene());
+  twin.state().request.store.settings.width = 64;
+  twin.state().request.store.settings.height = 64;
   twin.state().playback.set_target(15);
   twin.settle();
   auto widgets = twin.window().ui().widgets;

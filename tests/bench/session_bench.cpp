@@ -27,13 +27,13 @@ constexpr int height = 270;
 LabRequest lab_request(std::size_t lanes, int threads) {
   const BenchScene bench("cornell-checker", width, height);
   LabRequest request;
-  request.scene = bench.scene;
-  request.settings = bench.settings;
-  request.threads = threads;
+  request.store.scene = bench.scene;
+  request.store.settings = bench.settings;
+  request.store.threads = threads;
   constexpr std::array ids{EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2,
                            EstimatorId::hellinger};
   for (std::size_t i = 0; i < lanes; ++i) {
-    request.policies.push_back(default_policy(ids[i]));
+    request.lanes.policies.push_back(default_policy(ids[i]));
   }
   return request;
 }
@@ -77,7 +77,7 @@ void calls_while_busy(benchmark::State& state) {
   Client client;
   Session& session = client.session();
   LabRequest request = lab_request(4, 0);
-  request.frame = LabRequest::no_end;
+  request.lanes.frame = LaneRequest::no_end;
   client.ask(request, 1);
   std::vector<double> submits;
   std::vector<double> latests;
@@ -90,7 +90,7 @@ void calls_while_busy(benchmark::State& state) {
   std::shared_ptr<const Snapshot> shown;
   for (auto _ : state) {
     LabRequest next = request;
-    next.policies[1].thresholds[0] *= 1.0f + 0.001f * float(++step % 100);
+    next.lanes.policies[1].thresholds[0] *= 1.0f + 0.001f * float(++step % 100);
     timed(submits, [&] { session.submit(std::move(next)); });
     timed(latests, [&] { shown = session.latest(); });
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -111,17 +111,17 @@ void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dr
   const Session& session = client.session();
   LabRequest request = lab_request(lanes, threads);
   if (measured) {
-    request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
+    request.lanes.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
   }
-  const std::vector<SamplingPolicy> original = request.policies;
+  const std::vector<SamplingPolicy> original = request.lanes.policies;
   const auto drag_to = [&](int step) {
     for (std::size_t i = 0; i < dragged; ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
-        request.policies[i].thresholds[c] =
+        request.lanes.policies[i].thresholds[c] =
             original[i].thresholds[c] * (1.0f + 0.01f * float(step));
       }
     }
-    client.ask(request, request.frame);
+    client.ask(request, request.lanes.frame);
   };
   constexpr int steps = 10;
   for (int step = 0; step < steps; ++step) {
@@ -156,7 +156,7 @@ void camera_to_first_picture(benchmark::State& state) {
   Client client;
   LabRequest request = lab_request(4, 2);
   for (auto _ : state) {
-    request.settings.camera.origin.x += 1e-4f;
+    request.store.settings.camera.origin.x += 1e-4f;
     client.ask(request, 1);
   }
 }
@@ -164,7 +164,7 @@ BENCHMARK(camera_to_first_picture)->Unit(benchmark::kMillisecond)->UseRealTime()
 
 void close_while_busy(benchmark::State& state) {
   LabRequest request = lab_request(4, 2);
-  request.frame = LabRequest::no_end;
+  request.lanes.frame = LaneRequest::no_end;
   for (auto _ : state) {
     state.PauseTiming();
     auto client = std::make_unique<Client>();
@@ -180,7 +180,8 @@ Snapshot four_lanes_after(std::uint32_t frames) {
   const LabRequest request = lab_request(4, 2);
   LabOptions options;
   options.statistics.variance = true;
-  Lab lab(sample_source(request.scene, request.settings), width, height, request.policies, options);
+  Lab lab(sample_source(request.store.scene, request.store.settings), width, height,
+          request.lanes.policies, options);
   while (lab.frame() < frames) {
     lab.run_frame();
   }
@@ -191,7 +192,8 @@ Snapshot four_lanes_after(std::uint32_t frames) {
 
 void copy_of_four_lanes(benchmark::State& state) {
   const LabRequest request = lab_request(4, 2);
-  Lab lab(sample_source(request.scene, request.settings), width, height, request.policies);
+  Lab lab(sample_source(request.store.scene, request.store.settings), width, height,
+          request.lanes.policies);
   while (lab.frame() < 15) {
     lab.run_frame();
   }

@@ -31,8 +31,8 @@ void window_frame(benchmark::State& state, bool fresh) {
   constexpr int height = 1000;
   LabState lab = initial_state();
   set_scene(lab, std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker"))));
-  lab.request.settings.width = 480;
-  lab.request.settings.height = 270;
+  lab.request.store.settings.width = 480;
+  lab.request.store.settings.height = 270;
   Offscreen offscreen(width, height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(width), float(height)};

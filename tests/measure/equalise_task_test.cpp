@@ -15,11 +15,9 @@ using namespace test;
 EqualiseRequest request_for(const CommonBudget& budget) {
   const LabRequest lab = four_lanes();
   EqualiseRequest request;
-  request.scene = lab.scene;
-  request.settings = lab.settings;
-  request.policies = lab.policies;
+  request.store = lab.store;
+  request.policies = lab.lanes.policies;
   request.budget = budget;
-  request.threads = 2;
   return request;
 }
 
@@ -44,8 +42,8 @@ EqualiseStatus answer(EqualiseTask& task, const EqualiseRequest& request) {
 /// What the session of the window gives with these thresholds is what was asked for.
 void expect_equal_spp(const EqualiseRequest& request, const EqualiseStatus& status, double spp) {
   LabRequest lab = four_lanes();
-  for (std::size_t i = 0; i < lab.policies.size(); ++i) {
-    lab.policies[i] = status.calibrations[i].policy;
+  for (std::size_t i = 0; i < lab.lanes.policies.size(); ++i) {
+    lab.lanes.policies[i] = status.calibrations[i].policy;
   }
   const Snapshot snapshot = headless(lab);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {

@@ -44,7 +44,7 @@ TEST(Dock, IsABarUntilItIsUnfolded) {
 TEST(Dock, AReferenceIsComputedAndOpensItWhereThereIsRoom) {
   {
     MeasuredHand tall;
-    ASSERT_TRUE(tall.state().request.reference);
+    ASSERT_TRUE(tall.state().request.lanes.reference);
     EXPECT_TRUE(tall.has("dock.chart"));
     EXPECT_TRUE(tall.has("table.row4")) << "four lanes and uniform sampling";
     for (const LaneSnapshot& lane : tall.snapshot().lanes) {
@@ -55,7 +55,7 @@ TEST(Dock, AReferenceIsComputedAndOpensItWhereThereIsRoom) {
     }
   }
   MeasuredHand low(1280, 720);
-  ASSERT_TRUE(low.state().request.reference);
+  ASSERT_TRUE(low.state().request.lanes.reference);
   EXPECT_FALSE(low.has("dock.chart"));
   const float picture = low.rect("lane0.slot0").height;
   low.key('d');
@@ -151,14 +151,14 @@ TEST(Dock, ARefusedReferenceIsNamedWithItsReasonAndTheOldOneStays) {
   other.add_radiance(RadianceImage(5, 4, glm::vec3(1.0f)));
   write_exr(folder / "other.exr", other);
   MeasuredHand hand;
-  const auto before = hand.state().request.reference;
+  const auto before = hand.state().request.lanes.reference;
   hand.driver().drop(folder / "other.exr");
   hand.frame();
   hand.settle();
   ASSERT_EQ(hand.window().message().kind, Message::Kind::error);
   EXPECT_NE(hand.window().message().text.find("5x4"), std::string::npos)
       << hand.window().message().text;
-  EXPECT_EQ(hand.state().request.reference, before);
+  EXPECT_EQ(hand.state().request.lanes.reference, before);
 
   // One that fits is taken.
   ExrImage right(96, 54);
@@ -168,15 +168,15 @@ TEST(Dock, ARefusedReferenceIsNamedWithItsReasonAndTheOldOneStays) {
   hand.click("reference.path");
   hand.type((folder / "right.exr").string());
   hand.settle();
-  ASSERT_TRUE(hand.state().request.reference);
-  EXPECT_EQ(hand.state().request.reference->at(0, 0), glm::vec3(0.5f));
+  ASSERT_TRUE(hand.state().request.lanes.reference);
+  EXPECT_EQ(hand.state().request.lanes.reference->at(0, 0), glm::vec3(0.5f));
 }
 
 TEST(Dock, AnotherSizeOrCameraHasNoReferenceAndNoError) {
   MeasuredHand hand;
-  hand.state().request.settings.width = 48;
+  hand.state().request.store.settings.width = 48;
   hand.settle();
-  EXPECT_FALSE(hand.state().request.reference);
+  EXPECT_FALSE(hand.state().request.lanes.reference);
   EXPECT_EQ(hand.driver().error(), "");
   EXPECT_EQ(hand.snapshot().width, 48);
   EXPECT_FALSE(hand.snapshot().reference);

@@ -31,7 +31,7 @@ double frame(LabHand& hand) {
   return hand.state().playback.wanted();
 }
 double seed(LabHand& hand) {
-  return double(hand.state().request.settings.seed);
+  return double(hand.state().request.store.settings.seed);
 }
 double wipe(LabHand& hand) {
   return double(hand.state().comparison.wipe_at);
@@ -78,7 +78,7 @@ TEST(Drag, NumbersFollowTheMouse) {
 TEST(Drag, ASeedStopsAtZero) {
   LabHand hand(1280, 720);
   hand.drag("seed", -200.0f);
-  EXPECT_EQ(hand.state().request.settings.seed, 0u);
+  EXPECT_EQ(hand.state().request.store.settings.seed, 0u);
 }
 
 TEST(Drag, TheWipeFollowsTheMouse) {
@@ -115,10 +115,10 @@ TEST(Drag, TheDocksEdgeFollowsTheMouse) {
 /// How far the camera goes to its right and upwards.
 template <class Action>
 glm::vec2 way_of_camera(LabHand& hand, const Action& action) {
-  const Camera before = hand.state().request.settings.camera;
+  const Camera before = hand.state().request.store.settings.camera;
   action();
-  const glm::vec3 way = hand.state().request.settings.camera.origin - before.origin;
-  hand.state().request.settings.camera = before;
+  const glm::vec3 way = hand.state().request.store.settings.camera.origin - before.origin;
+  hand.state().request.store.settings.camera = before;
   return {glm::dot(way, before.right), glm::dot(way, before.up)};
 }
 
@@ -154,7 +154,8 @@ TEST(Drag, TheWheelZoomsAndWithCtrlBringsTheCameraNearer) {
   LabHand hand(1280, 720);
   const ScreenRect slot = hand.rect("lane0.slot0");
   const auto distance = [&] {
-    return glm::distance(hand.state().request.settings.camera.origin, hand.state().camera.pivot);
+    return glm::distance(hand.state().request.store.settings.camera.origin,
+                         hand.state().camera.pivot);
   };
   const float before = distance();
   hand.wheel(slot.center_x(), slot.center_y(), 2.0f);

@@ -46,7 +46,7 @@ void compute_and_use_reference(LabHand& hand, std::uint64_t spp) {
   hand.key('d');
   hand.click("dock.compute");
   hand.settle();
-  ASSERT_TRUE(hand.state().request.reference);
+  ASSERT_TRUE(hand.state().request.lanes.reference);
   hand.choose("lane3.estimator", "oracle");
   hand.settle();
 }

@@ -36,9 +36,9 @@ class LabHand {
   static LabState small_lab() {
     LabState state = initial_state();
     set_scene(state, std::make_shared<const TraceScene>(load_scene(find_scene("cornell-checker"))));
-    state.request.settings.width = 96;
-    state.request.settings.height = 54;
-    state.request.threads = 2;
+    state.request.store.settings.width = 96;
+    state.request.store.settings.height = 54;
+    state.request.store.threads = 2;
     state.playback.set_target(5);
     return state;
   }
@@ -47,7 +47,7 @@ class LabHand {
   LabState& state() { return driver_.window().state(); }
   LabDriver& driver() { return driver_; }
   const Snapshot& snapshot() { return *driver_.snapshot(); }
-  const SamplingPolicy& policy(std::size_t lane) { return state().request.policies[lane]; }
+  const SamplingPolicy& policy(std::size_t lane) { return state().request.lanes.policies[lane]; }
 
   void frame() {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;

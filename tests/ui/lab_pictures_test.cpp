@@ -55,8 +55,8 @@ TEST(LabPictures, ARejectedSampleOfThePixelIsNamedAndCanBeTraced) {
   LabHand hand;
   const std::string scene = "synthetic:non-finite";
   set_scene(hand.state(), std::make_shared<const TraceScene>(open_scene(scene)));
-  hand.state().request.settings.width = 48;
-  hand.state().request.settings.height = 27;
+  hand.state().request.store.settings.width = 48;
+  hand.state().request.store.settings.height = 27;
   hand.settle();
   const LaneSnapshot& lane = hand.snapshot().lanes[1];
   ASSERT_FALSE(lane.rejected.empty());
@@ -206,8 +206,8 @@ void expect_reduced(LabHand& hand, const std::string& slot, const DisplayImage& 
 
 TEST(LabPictures, OneLargerThanItsSlotIsAveraged) {
   LabHand hand;
-  hand.state().request.settings.width = 640;
-  hand.state().request.settings.height = 360;
+  hand.state().request.store.settings.width = 640;
+  hand.state().request.store.settings.height = 360;
   hand.state().playback.set_target(2);
   hand.settle();
   const auto view = [&](std::size_t lane) {
@@ -246,11 +246,11 @@ TEST(LabPictures, HoldingAKeyShowsTheFirstLaneEverywhere) {
 
 TEST(LabPictures, CameraTurnsAndComesHome) {
   LabHand hand;
-  const Camera home = hand.state().request.settings.camera;
+  const Camera home = hand.state().request.store.settings.camera;
   const ScreenRect slot = hand.rect("lane0.slot0");
   hand.drag(slot.center_x(), slot.center_y(), slot.center_x() + 20.0f, slot.center_y(), 1);
   hand.settle();
-  const Camera& turned = hand.state().request.settings.camera;
+  const Camera& turned = hand.state().request.store.settings.camera;
   EXPECT_NE(turned, home);
   EXPECT_NEAR(glm::length(turned.forward), 1.0f, 1e-5f);
   EXPECT_NEAR(glm::dot(turned.forward, turned.right), 0.0f, 1e-5f);
@@ -258,11 +258,12 @@ TEST(LabPictures, CameraTurnsAndComesHome) {
               glm::distance(home.origin, hand.state().camera.pivot), 0.01f);
   EXPECT_EQ(hand.snapshot().settings.camera, turned);
   hand.key(key_page_up);
-  EXPECT_LT(glm::distance(hand.state().request.settings.camera.origin, hand.state().camera.pivot),
-            glm::distance(home.origin, hand.state().camera.pivot));
+  EXPECT_LT(
+      glm::distance(hand.state().request.store.settings.camera.origin, hand.state().camera.pivot),
+      glm::distance(home.origin, hand.state().camera.pivot));
   hand.key(key_home);
   hand.settle();
-  EXPECT_EQ(hand.state().request.settings.camera, home);
+  EXPECT_EQ(hand.state().request.store.settings.camera, home);
 }
 
 TEST(LabPictures, EveryViewHasSomethingToShow) {
@@ -275,7 +276,7 @@ TEST(LabPictures, EveryViewHasSomethingToShow) {
     hand.move(-100.0f, -100.0f);
     hand.settle();
     EXPECT_EQ(hand.state().slots[1][1].kind, row.key);
-    EXPECT_EQ(hand.state().request.variance, row.key == ViewKind::variance);
+    EXPECT_EQ(hand.state().request.lanes.variance, row.key == ViewKind::variance);
   }
   hand.choose("lane1.slot1.view", "difference0");
   EXPECT_EQ(hand.state().slots[1][1], (SlotChoice{ViewKind::difference, 0}));

@@ -36,12 +36,12 @@ TEST(LabWindow, DraggingAThresholdLineReplaysItsLaneAlone) {
   hand.settle();
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const auto before = heatmaps(hand);
-    const auto policies = hand.state().request.policies;
+    const auto policies = hand.state().request.lanes.policies;
     const std::uint64_t not_done = hand.snapshot().lanes[lane].history.back().not_done;
     hand.drag(lane_widget(lane, "errors.marker0"), -45.0f);
     hand.move(-100.0f, -100.0f);
     hand.settle();
-    expect_only(lane, policies, hand.state().request.policies);
+    expect_only(lane, policies, hand.state().request.lanes.policies);
     EXPECT_LT(hand.policy(lane).thresholds[0], policies[lane].thresholds[0]);
     EXPECT_EQ(hand.snapshot().lanes[lane].policy, hand.policy(lane));
     EXPECT_GT(hand.snapshot().lanes[lane].history.back().not_done, not_done);
@@ -115,14 +115,14 @@ TEST(LabWindow, EveryThresholdOfContrastHasItsLineAndSlider) {
 TEST(LabWindow, SlidersMoveWhatTheySay) {
   LabHand hand;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto before = hand.state().request.policies;
+    const auto before = hand.state().request.lanes.policies;
     hand.drag(lane_widget(lane, "multiplier"), 40.0f);
-    const auto moved = hand.state().request.policies;
+    const auto moved = hand.state().request.lanes.policies;
     expect_only(lane, before, moved);
     EXPECT_NE(moved[lane].allocation.multiplier, before[lane].allocation.multiplier);
     const std::string slider = lane_widget(lane, "threshold0");
     hand.drag(slider, 25.0f);
-    expect_only(lane, moved, hand.state().request.policies);
+    expect_only(lane, moved, hand.state().request.lanes.policies);
     // At either end the slider gives the end of its range.
     const ScreenRect box = hand.rect(slider);
     const ThresholdRange range = threshold_range(estimator(hand.policy(lane).estimator), 0);
@@ -155,8 +155,8 @@ TEST(LabWindow, EstimatorComboGivesTheLaneAnother) {
 
 TEST(LabWindow, EveryEstimatorOfTheTableCanBeChosenAndBringsItsPolicy) {
   LabHand hand;
-  hand.state().request.settings.width = 32;
-  hand.state().request.settings.height = 18;
+  hand.state().request.store.settings.width = 32;
+  hand.state().request.store.settings.height = 18;
   hand.settle();
   for (const Estimator& row : estimators()) {
     SCOPED_TRACE(row.id);
@@ -230,7 +230,7 @@ TEST(LabWindow, ABrokenSceneIsNamedAndTheOldOneStays) {
   const std::filesystem::path broken = folder / "broken.xml";
   std::ofstream(broken) << "<scene version=\"3.0.0\">\n  <shape type=\"rectangle\">\n</scene>\n";
   LabHand hand;
-  const auto scene = hand.state().request.scene;
+  const auto scene = hand.state().request.store.scene;
   hand.click("scene");
   hand.frames(3);
   hand.click("scene.path");
@@ -242,7 +242,7 @@ TEST(LabWindow, ABrokenSceneIsNamedAndTheOldOneStays) {
   ASSERT_EQ(hand.window().message().kind, Message::Kind::error);
   EXPECT_NE(hand.window().message().text.find("broken.xml:"), std::string::npos)
       << hand.window().message().text;
-  EXPECT_EQ(hand.state().request.scene, scene);
+  EXPECT_EQ(hand.state().request.store.scene, scene);
   EXPECT_EQ(hand.snapshot().frame, 5u);
   hand.click("message");
   EXPECT_EQ(hand.window().message().kind, Message::Kind::none);
@@ -266,24 +266,24 @@ TEST(LabWindow, AFilmThatDoesNotFitTheMemoryIsRefusedAndTheOldSceneStays) {
     GTEST_SKIP() << "this machine has more memory than any picture needs";
   }
   LabHand hand;
-  const auto scene = hand.state().request.scene;
+  const auto scene = hand.state().request.store.scene;
   hand.driver().drop(folder / "huge.xml");
   wait_for_message(hand);
   const Message said = hand.window().message();
   EXPECT_EQ(said.kind, Message::Kind::error);
   EXPECT_NE(said.text.find("16000x16000 would take about"), std::string::npos) << said.text;
   EXPECT_NE(said.text.find("huge.xml"), std::string::npos) << said.text;
-  EXPECT_EQ(hand.state().request.scene, scene);
-  EXPECT_EQ(hand.state().request.settings.width, 96);
+  EXPECT_EQ(hand.state().request.store.scene, scene);
+  EXPECT_EQ(hand.state().request.store.settings.width, 96);
 }
 
 TEST(LabWindow, ASizeThatDoesNotFitTheMemoryGivesWayToTheOneBefore) {
   LabHand hand;
-  hand.state().request.settings.width = 1 << 20;
-  hand.state().request.settings.height = 1 << 16;
+  hand.state().request.store.settings.width = 1 << 20;
+  hand.state().request.store.settings.height = 1 << 16;
   hand.settle();
-  EXPECT_EQ(hand.state().request.settings.width, 96);
-  EXPECT_EQ(hand.state().request.settings.height, 54);
+  EXPECT_EQ(hand.state().request.store.settings.width, 96);
+  EXPECT_EQ(hand.state().request.store.settings.height, 54);
   EXPECT_EQ(hand.window().message().kind, Message::Kind::error);
   EXPECT_NE(hand.window().message().text.find("1048576x65536"), std::string::npos)
       << hand.window().message().text;
@@ -452,7 +452,7 @@ TEST(LabWindow, ASliderKeepsItsLengthWhileTheNumbersBesideItChange) {
   hand.frames(3);
   const ScreenRect before = hand.rect("lane1.threshold0");
   const float numbers = hand.rect("lane1.numbers").width;
-  hand.state().request.policies[1].thresholds[0] = 1000.0f;  // every pixel is done
+  hand.state().request.lanes.policies[1].thresholds[0] = 1000.0f;  // every pixel is done
   hand.settle();
   EXPECT_NE(hand.rect("lane1.numbers").width, numbers);
   EXPECT_EQ(hand.rect("lane1.threshold0").width, before.width);

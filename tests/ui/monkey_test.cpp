@@ -161,11 +161,11 @@ class Monkey {
     LabState& state = driver_.window().state();
     state.quit = false;
     // Not more work behind the window than is needed to have pictures.
-    if (state.request.settings.width > 160 && state.request.settings.width < 4096) {
-      state.request.settings.width = 40;
-      state.request.settings.height = 30;
+    if (state.request.store.settings.width > 160 && state.request.store.settings.width < 4096) {
+      state.request.store.settings.width = 40;
+      state.request.store.settings.height = 30;
     }
-    state.request.settings.max_depth = std::min(state.request.settings.max_depth, 4);
+    state.request.store.settings.max_depth = std::min(state.request.store.settings.max_depth, 4);
     state.reference_form.spp = std::min<std::uint64_t>(state.reference_form.spp, 64);
     if (state.playback.target() > 30) {
       state.playback.set_target(15);
@@ -175,9 +175,9 @@ class Monkey {
 
   void expect_sane() {
     const LabState& state = driver_.window().state();
-    EXPECT_EQ(camera_fault(state.request.settings.camera), "");
-    EXPECT_TRUE(!state.request.scene ||
-                (state.request.settings.width >= 1 && state.request.settings.height >= 1));
+    EXPECT_EQ(camera_fault(state.request.store.settings.camera), "");
+    EXPECT_TRUE(!state.request.store.scene || (state.request.store.settings.width >= 1 &&
+                                               state.request.store.settings.height >= 1));
     EXPECT_LE(std::abs(state.view.exposure), largest_exposure);
     EXPECT_GE(state.pan_zoom.zoom, 0.25f);
     EXPECT_TRUE(state.pan_zoom.center.x >= 0.0f && state.pan_zoom.center.x <= 1.0f);
@@ -186,8 +186,8 @@ class Monkey {
     EXPECT_LT(state.comparison.lane, lane_count);
     EXPECT_LT(state.comparison.other, lane_count);
     EXPECT_NE(state.comparison.lane, state.comparison.other);
-    ASSERT_EQ(state.request.policies.size(), lane_count);
-    for (const SamplingPolicy& policy : state.request.policies) {
+    ASSERT_EQ(state.request.lanes.policies.size(), lane_count);
+    for (const SamplingPolicy& policy : state.request.lanes.policies) {
       for (int c = 0; c < estimator(policy.estimator).channels; ++c) {
         const float threshold = policy.thresholds[std::size_t(c)];
         EXPECT_TRUE(threshold > 0.0f && std::isfinite(threshold)) << threshold;
@@ -204,8 +204,8 @@ class Monkey {
  private:
   static LabState first_state() {
     LabState state = initial_state();
-    state.request.threads = 1;
-    state.request.memory = std::size_t(16) << 20;
+    state.request.store.threads = 1;
+    state.request.store.memory = std::size_t(16) << 20;
     return state;
   }
 
@@ -372,7 +372,7 @@ class Monkey {
 
   void set_picture() {
     static constexpr std::array<int, 8> sides{1, 2, 3, 4, 16, 60, 100, 30'000};
-    RenderSettings& settings = driver_.window().state().request.settings;
+    RenderSettings& settings = driver_.window().state().request.store.settings;
     settings.width = one_of(sides);
     settings.height = one_of(sides);
   }

@@ -1,0 +1,16 @@
+#include "renderer/adaptive/run_lab.h"
+
+#include "renderer/adaptive/lab.h"
+
+namespace quartet {
+
+bool run_lab(Lab& lab, const std::stop_token& stop, const std::function<bool()>& after_frame) {
+  do {
+    if (stop.stop_requested() || !lab.run_frame(stop) || stop.stop_requested()) {
+      return false;
+    }
+  } while (after_frame());
+  return true;
+}
+
+}  // namespace quartet

@@ -1,0 +1,77 @@
+#include "renderer/adaptive/run_lab.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "renderer/adaptive/lab.h"
+
+namespace quartet {
+namespace {
+
+/// A lab of four grey pixels, each with one sample a frame.
+Lab grey_lab(const std::function<void()>& before_samples = [] {}) {
+  const SampleSource source = [before_samples](int, int, std::uint32_t,
+                                               std::span<glm::vec3> radiance) {
+    before_samples();
+    std::ranges::fill(radiance, glm::vec3(0.5f));
+  };
+  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  LabOptions options;
+  options.threads = 1;
+  return {source, 2, 2, std::span(&policy, 1), options};
+}
+
+TEST(RunLab, AsksAfterEachFrameWhetherThereShallBeAnother) {
+  Lab lab = grey_lab();
+  std::vector<std::uint32_t> asked;
+  EXPECT_TRUE(run_lab(lab, {}, [&] {
+    asked.push_back(lab.frame());
+    return lab.frame() < 3;
+  }));
+  EXPECT_EQ(asked, (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_TRUE(run_lab(lab, {}, [] { return false; }));
+  EXPECT_EQ(lab.frame(), 4u) << "at least one";
+}
+
+TEST(RunLab, BeginsNoFrameOnceItShallStop) {
+  Lab lab = grey_lab();
+  std::stop_source stop;
+  EXPECT_FALSE(run_lab(lab, stop.get_token(), [&] {
+    stop.request_stop();
+    return true;
+  }));
+  EXPECT_EQ(lab.frame(), 1u);
+  bool asked = false;
+  EXPECT_FALSE(run_lab(lab, stop.get_token(), [&] { return std::exchange(asked, true); }));
+  EXPECT_EQ(lab.frame(), 1u);
+  EXPECT_FALSE(asked);
+  // Not even one that could be replayed.
+  lab.rewind_past(0);
+  EXPECT_FALSE(run_lab(lab, stop.get_token(), [] { return false; }));
+  EXPECT_EQ(lab.frame(), 0u);
+}
+
+TEST(RunLab, AStopAfterTheLastFrameComesTooLate) {
+  Lab lab = grey_lab();
+  std::stop_source stop;
+  EXPECT_TRUE(run_lab(lab, stop.get_token(), [&] {
+    stop.request_stop();
+    return false;
+  }));
+}
+
+TEST(RunLab, AFrameInWhichItShallStopIsNotLookedAt) {
+  std::stop_source stop;
+  Lab lab = grey_lab([&] { stop.request_stop(); });
+  bool asked = false;
+  EXPECT_FALSE(run_lab(lab, stop.get_token(), [&] { return std::exchange(asked, true); }));
+  EXPECT_EQ(lab.frame(), 1u) << "the first samples of a store are never given up";
+  EXPECT_FALSE(asked);
+}
+
+}  // namespace
+}  // namespace quartet
