@@ -12,6 +12,7 @@
 #include "app/progress.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
+#include "app/usage_error.h"
 #include "renderer/measure/interval.h"
 #include "ui/lab_figure.h"
 

@@ -16,6 +16,7 @@
 #include "app/run_options.h"
 #include "app/shell_words.h"
 #include "app/stop_options.h"
+#include "app/usage_error.h"
 #include "renderer/measure/calibrate.h"
 
 namespace quartet {

@@ -14,6 +14,7 @@
 #include "app/messages.h"
 #include "app/number_option.h"
 #include "app/shell_words.h"
+#include "app/usage_error.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/version.h"
 

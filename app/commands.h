@@ -3,17 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "app/number_option.h"
 
 namespace quartet {
-
-/// Arguments that cannot be meant. what() is one line that says what would be right; exit code 2.
-struct UsageError : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
-};
 
 /// What every command gets to know of the program it runs in.
 struct Program {

@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/json_text.h"
+#include "app/usage_error.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference.h"

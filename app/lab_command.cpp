@@ -13,6 +13,7 @@
 #include "app/imgui_screen.h"
 #include "app/lab_driver.h"
 #include "app/messages.h"
+#include "app/usage_error.h"
 #include "app/window.h"
 #include "renderer/measure/reference_cache.h"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/commands.h"
 #include "app/number_option.h"
+#include "app/usage_error.h"
 
 namespace quartet {
 namespace {

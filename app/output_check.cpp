@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "app/commands.h"
+#include "app/usage_error.h"
 #include "renderer/image/exr.h"
 
 namespace quartet {

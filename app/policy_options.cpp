@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "app/commands.h"
+#include "app/usage_error.h"
 #include "renderer/adaptive/estimator.h"
 
 namespace quartet {

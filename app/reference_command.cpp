@@ -9,6 +9,7 @@
 #include "app/number_option.h"
 #include "app/output_check.h"
 #include "app/reference_option.h"
+#include "app/usage_error.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 

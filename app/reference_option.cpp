@@ -7,11 +7,11 @@
 #include <array>
 #include <filesystem>
 
-#include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/messages.h"
 #include "app/number_option.h"
 #include "app/progress.h"
+#include "app/usage_error.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/reference_cache.h"

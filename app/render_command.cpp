@@ -14,6 +14,7 @@
 #include "app/run_record.h"
 #include "app/stop_options.h"
 #include "app/stop_report.h"
+#include "app/usage_error.h"
 #include "renderer/adaptive/effort.h"
 #include "renderer/image/lane_exr.h"
 #include "renderer/image/png.h"

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/commands.h"
 #include "app/messages.h"
 #include "app/number_option.h"
 #include "app/shell_words.h"
+#include "app/usage_error.h"
 #include "renderer/adaptive/memory_need.h"
 #include "renderer/scene/limits.h"
 #include "renderer/scene/load_scene.h"

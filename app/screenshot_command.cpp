@@ -20,6 +20,7 @@
 #include "app/rejected_report.h"
 #include "app/stop_options.h"
 #include "app/stop_report.h"
+#include "app/usage_error.h"
 #include "renderer/image/png.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/stop_conditions.h"

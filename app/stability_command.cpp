@@ -13,6 +13,7 @@
 #include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/stability_files.h"
+#include "app/usage_error.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/measure/verdict.h"
 #include "renderer/scene/load_scene.h"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.h"
 #include "app/number_option.h"
+#include "app/usage_error.h"
 
 namespace quartet {
 

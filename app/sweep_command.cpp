@@ -15,8 +15,10 @@
 #include "app/run_options.h"
 #include "app/stop_options.h"
 #include "app/sweep_files.h"
+#include "app/usage_error.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/image/ticks.h"
+#include "renderer/measure/interval.h"
 #include "renderer/measure/sweep_charts.h"
 #include "renderer/stopwatch.h"
 

@@ -90,7 +90,7 @@ std::string sweep_csv(const SweepReport& report) {
     add_metrics(report, head, run.end, csv);
     for (const auto& [name, value] : {std::pair{"rank_correlation", run.quality.rank_correlation},
                                       {"false_stops", run.quality.stops.share()},
-                                      {"oracle_distance", run.quality.oracle_distance}}) {
+                                      {"oracle_distance", run.oracle_distance}}) {
       if (!std::isnan(value)) {
         csv += fmt::format("{},{},{:.6f}\n", head, name, value);
       }

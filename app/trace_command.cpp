@@ -10,6 +10,7 @@
 #include "app/number_option.h"
 #include "app/run_options.h"
 #include "app/scene_text.h"
+#include "app/usage_error.h"
 #include "renderer/scene/synthetic.h"
 #include "renderer/trace/path_log.h"
 #include "renderer/trace/running_mean.h"

@@ -1,4 +1,5 @@
 #include "ui/chart_painter.h"
+#include "renderer/number_text.h"
 
 #include <fmt/format.h>
 

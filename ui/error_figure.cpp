@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 
 namespace quartet {
 namespace {

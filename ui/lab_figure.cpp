@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "renderer/adaptive/effort.h"
-#include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 #include "ui/cairo_page.h"
 #include "ui/figure_layout.h"
 

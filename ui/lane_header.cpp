@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "renderer/adaptive/effort.h"
-#include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 #include "ui/imgui_compat.h"
 #include "ui/widgets.h"
 

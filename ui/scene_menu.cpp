@@ -95,7 +95,7 @@ void draw_scene(LabFrame& frame, float width) {
 void show_failure(LabState& state, const FailureCase& failure) {
   state.failure = &failure;
   for (LaneSlots& slots : state.slots) {
-    slots[1] = {failure.view, 0};
+    slots[1] = {find_view(failure.view).key, 0};
   }
   const PicturePart& region = failure.region;
   state.pan_zoom.zoom = failure.zoom;

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "renderer/adaptive/lane.h"
+#include "renderer/adaptive/lane_snapshot.h"
 #include "renderer/adaptive/policy.h"
-#include "renderer/adaptive/snapshot.h"
 
 namespace quartet {
 namespace {

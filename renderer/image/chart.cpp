@@ -1,4 +1,5 @@
 #include "renderer/image/chart.h"
+#include "renderer/number_text.h"
 
 #include <fmt/format.h>
 

@@ -10,6 +10,7 @@
 
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/metrics.h"
+#include "renderer/number_text.h"
 
 namespace quartet {
 namespace {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Rgba8 note_color{200, 205, 212, 255};
 
-std::string quality_text(const LaneQuality& quality) {
+std::string quality_text(const EstimatorQuality& quality) {
   std::string text = std::isnan(quality.rank_correlation)
                          ? std::string("no rank correlation")
                          : fmt::format("rank correlation {:.2f}", quality.rank_correlation);
@@ -22,7 +22,7 @@ std::string quality_text(const LaneQuality& quality) {
 
 }  // namespace
 
-Chart quality_chart(const LaneQuality& quality, std::string title, Rgba8 accent) {
+Chart quality_chart(const EstimatorQuality& quality, std::string title, Rgba8 accent) {
   Chart chart;
   chart.title = std::move(title);
   Line line;

@@ -1,4 +1,5 @@
 #include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 
 #include <fmt/format.h>
 
@@ -125,15 +126,6 @@ std::vector<Tick> log_ticks(double min, double max, int wanted) {
     ticks = ticks_of({1}, step);
   }
   return int(ticks.size()) < fewest && max < 10.0 * min ? linear_ticks(min, max, wanted) : ticks;
-}
-
-std::string format_number(double value) {
-  std::string text = fmt::format("{:.4g}", value == 0.0 ? 0.0 : value);
-  if (const std::size_t exponent = text.find('e'); exponent != std::string::npos) {
-    const int power = std::stoi(text.substr(exponent + 1));
-    text = fmt::format("{}e{}", text.substr(0, exponent), power);
-  }
-  return text;
 }
 
 }  // namespace quartet

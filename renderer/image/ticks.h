@@ -29,7 +29,4 @@ std::vector<Tick> decade_ticks(int first, int last);
 /// so on. Linear ticks where the range holds too few of either. None for a range that is not one.
 std::vector<Tick> log_ticks(double min, double max, int wanted);
 
-/// Four significant digits, no trailing zeros: 71, 0.005, 31.27, 2.5e7.
-std::string format_number(double value);
-
 }  // namespace quartet

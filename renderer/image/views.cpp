@@ -260,17 +260,4 @@ ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange rang
   return {0.0, double(highest), ColorMapId::turbo};
 }
 
-RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane) {
-  return radiance_image(snapshot, snapshot.lanes[lane]);
-}
-
-RadianceImage radiance_image(const Snapshot& snapshot, const LaneSnapshot& lane) {
-  const auto& mean = lane.mean;
-  RadianceImage image(snapshot.width, snapshot.height);
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    image.pixels()[i] = {mean[0][i], mean[1][i], mean[2][i]};
-  }
-  return image;
-}
-
 }  // namespace quartet

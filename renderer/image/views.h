@@ -78,7 +78,4 @@ View draw_view(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
 /// The scale of samples per pixel of one lane.
 ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange range);
 
-RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane);
-RadianceImage radiance_image(const Snapshot& snapshot, const LaneSnapshot& lane);
-
 }  // namespace quartet

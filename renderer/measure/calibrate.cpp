@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 
 namespace quartet {
 namespace {

@@ -26,14 +26,6 @@ double ErrorCurve::error_at(double cost) const {
   return a.error * std::pow(right->error / a.error, share);
 }
 
-ErrorCurve error_over_seconds(std::span<const Measurement> run, std::size_t metric) {
-  std::vector<ErrorCurve::Point> points;
-  for (const Measurement& measurement : run) {
-    points.push_back({measurement.record.seconds, measurement.values[metric]});
-  }
-  return ErrorCurve(std::move(points));
-}
-
 double slope_of(const Metric& metric) {
   return metric.quadratic ? -1.0 : -0.5;
 }

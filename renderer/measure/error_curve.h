@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/measure/experiment.h"
+#include "renderer/measure/metrics.h"
 
 namespace quartet {
 
@@ -32,9 +32,6 @@ class ErrorCurve {
  private:
   std::vector<Point> points_;
 };
-
-/// Of one metric of a run, against as-if-alone seconds.
-ErrorCurve error_over_seconds(std::span<const Measurement> run, std::size_t metric);
 
 /// Beyond the points: as MetricId's errors fall with samples at random, −1 for what is quadratic,
 /// else −½.

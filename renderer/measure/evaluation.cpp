@@ -4,30 +4,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/image/quality_chart.h"
-#include "renderer/image/views.h"
+#include "renderer/measure/quality.h"
 
 namespace quartet {
 namespace {
 
 MetricValues none() {
   return MetricValues(metrics().size(), std::nan(""));
-}
-
-/// Errors are compared in units of their thresholds, so that channels can be compared too.
-LaneQuality quality_of(const LaneSnapshot& lane, const RadianceImage& image,
-                       const RadianceImage& truth) {
-  constexpr std::size_t groups = 40;
-  const ScalarImage true_error = metric(MetricId::mse).map(image, truth);
-  const std::vector<float> estimated = largest_scaled_errors(lane);
-  LaneQuality quality;
-  quality.rank_correlation = std::nan("");
-  if (!estimated.empty()) {
-    quality.calibration = calibration_curve(estimated, true_error.pixels(), groups);
-    quality.rank_correlation = rank_correlation(estimated, true_error.pixels());
-    quality.stops = false_stops(pixel_states(lane), true_error.pixels());
-  }
-  return quality;
 }
 
 void evaluate(const EvaluationInput& input, const std::stop_token& stop,
@@ -60,12 +43,13 @@ void evaluate(const EvaluationInput& input, const std::stop_token& stop,
     }
     publish(next);
   }
-  auto qualities = std::make_shared<std::vector<LaneQuality>>();
+  auto qualities = std::make_shared<std::vector<EstimatorQuality>>();
   for (std::size_t i = 0; i < input.snapshot->lanes.size(); ++i) {
     if (stop.stop_requested()) {
       return;
     }
-    qualities->push_back(quality_of(input.snapshot->lanes[i], images[i], input.reference->image));
+    const ScalarImage true_error = metric(MetricId::mse).map(images[i], input.reference->image);
+    qualities->push_back(quality_of(input.snapshot->lanes[i], true_error.pixels()));
   }
   next.quality = std::move(qualities);
   next.complete = true;

@@ -13,7 +13,7 @@ namespace quartet {
 /// One number for each row of the table of metrics, in its order; NaN where there is none (yet).
 using MetricValues = std::vector<double>;
 
-struct LaneQuality;
+struct EstimatorQuality;
 
 /// What all metrics say of the lanes of a snapshot.
 struct Evaluation {
@@ -23,7 +23,7 @@ struct Evaluation {
   std::vector<MetricValues> lanes;  ///< of the snapshot, in its order
   MetricValues baseline;            ///< of its uniform sampling
   /// Of the lanes' estimators; null until it is known.
-  std::shared_ptr<const std::vector<LaneQuality>> quality;
+  std::shared_ptr<const std::vector<EstimatorQuality>> quality;
   bool complete = false;  ///< nothing more will come
 };
 

@@ -20,7 +20,7 @@ struct FailureCase {
   std::string_view mode;   ///< what goes wrong, in a few words
   std::string_view watch;  ///< what to look at, one sentence
   PicturePart region;      ///< where it goes wrong
-  ViewKind view;           ///< what shows it best beside the picture
+  std::string_view view;   ///< its id: what shows it best beside the picture
   float zoom;              ///< on the middle of the region; 1 shows the whole picture
 };
 

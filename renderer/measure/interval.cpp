@@ -1,6 +1,7 @@
 #include "renderer/measure/interval.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -89,6 +90,16 @@ double student_quantile(double p, int degrees) {
     (student_p(middle, degrees) > p ? low : high) = middle;
   }
   return high;
+}
+
+double median(std::vector<double> values) {
+  assert(!values.empty());
+  if (std::ranges::any_of(values, [](double value) { return std::isnan(value); })) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 Interval mean_interval(std::span<const double> values, double p) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace quartet {
 
@@ -23,6 +24,9 @@ double student_p(double t, int degrees);
 
 /// Of at least one value.
 double mean_of(std::span<const double> values);
+
+/// The middle of the values, the mean of two where there is no single one; NaN if one of them is.
+double median(std::vector<double> values);
 
 /// Of the mean of independent values, two-sided, at confidence 1 − p, by Student's t. Of a single
 /// value nothing is known: its interval has no ends.

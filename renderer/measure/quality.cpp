@@ -140,18 +140,15 @@ std::vector<float> oracle_weights(const Film& film) {
   return weights;
 }
 
-EstimatorQuality quality_of(const Lane& lane, std::span<const float> true_squared_error,
-                            std::span<const float> oracle) {
+EstimatorQuality quality_of(const PixelCriterion& criterion,
+                            std::span<const float> true_squared_error) {
   EstimatorQuality quality;
-  quality.oracle_distance = share_distance(lane.taken(), oracle);
-  const std::vector<float> scaled = largest_scaled_errors(lane);
-  if (scaled.empty()) {
-    quality.rank_correlation = nan;
-    return quality;
+  const std::vector<float> scaled = largest_scaled_errors(criterion);
+  if (!scaled.empty()) {
+    quality.rank_correlation = rank_correlation(scaled, true_squared_error);
+    quality.stops = false_stops(pixel_states(criterion), true_squared_error);
+    quality.calibration = calibration_curve(scaled, true_squared_error, calibration_bins);
   }
-  quality.rank_correlation = rank_correlation(scaled, true_squared_error);
-  quality.stops = false_stops(pixel_states(lane), true_squared_error);
-  quality.calibration = calibration_curve(scaled, true_squared_error, calibration_bins);
   return quality;
 }
 

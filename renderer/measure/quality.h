@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -58,15 +59,14 @@ double share_distance(std::span<const std::uint32_t> samples, std::span<const fl
 /// variances.
 std::vector<float> oracle_weights(const Film& film);
 
-/// All of the above of a lane, whose picture is off by `true_squared_error`. Of an estimator
-/// without an error only the distance is a number.
+/// What a lane's errors, in units of their thresholds, say of a picture that is off by
+/// `true_squared_error`: of an estimator without an error nothing.
 struct EstimatorQuality {
-  double rank_correlation = 0.0;
+  double rank_correlation = std::numeric_limits<double>::quiet_NaN();
   FalseStops stops;
-  double oracle_distance = 0.0;
-  std::vector<CalibrationBin> calibration;  ///< against errors in units of the threshold
+  std::vector<CalibrationBin> calibration;  ///< in 32 bins
 };
-EstimatorQuality quality_of(const Lane& lane, std::span<const float> true_squared_error,
-                            std::span<const float> oracle);
+EstimatorQuality quality_of(const PixelCriterion& criterion,
+                            std::span<const float> true_squared_error);
 
 }  // namespace quartet

@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/adaptive/lane.h"
-#include "renderer/adaptive/snapshot.h"
+#include "renderer/adaptive/lane_snapshot.h"
 #include "renderer/measure/metrics.h"
 
 namespace quartet {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "renderer/measure/calibrate.h"
+#include "renderer/measure/interval.h"
 #include "renderer/stopwatch.h"
 
 namespace quartet {
@@ -113,7 +113,8 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
       }
       run.end = measured->back();
       keep_most(result.rejected, rejected_of(experiment.lane(), seed));
-      run.quality = quality_of(experiment.lane(), true_squared_error(experiment), oracle);
+      run.quality = quality_of(experiment.lane(), true_squared_error(experiment));
+      run.oracle_distance = share_distance(experiment.lane().taken(), oracle);
       result.runs.push_back(std::move(run));
     }
   }
@@ -140,6 +141,15 @@ void set_error(SweepPoint& point, const Runs& runs, const Number& error) {
     point.error_low = std::min(point.error_low, error(run));
     point.error_high = std::max(point.error_high, error(run));
   }
+}
+
+/// Of one metric of a run, against as-if-alone seconds.
+ErrorCurve error_over_seconds(std::span<const Measurement> run, std::size_t metric) {
+  std::vector<ErrorCurve::Point> points;
+  for (const Measurement& measurement : run) {
+    points.push_back({measurement.record.seconds, measurement.values[metric]});
+  }
+  return ErrorCurve(std::move(points));
 }
 
 }  // namespace
@@ -277,16 +287,6 @@ std::vector<SweepPoint> pareto_front(std::vector<SweepPoint> points, bool higher
     }
   }
   return front;
-}
-
-double median(std::vector<double> values) {
-  assert(!values.empty());
-  if (std::ranges::any_of(values, [](double value) { return std::isnan(value); })) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 }  // namespace quartet

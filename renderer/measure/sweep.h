@@ -58,6 +58,7 @@ struct SweepRun {
   std::uint64_t seed = 0;
   Measurement end = {};
   EstimatorQuality quality = {};
+  double oracle_distance = 0.0;  ///< share_distance() of its samples and the oracle's weights
 };
 
 struct SweepResult {
@@ -103,8 +104,5 @@ std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t me
 /// Those that no other point beats in both time and error, by rising time: the Pareto front.
 /// `higher_is_better` speaks of the error.
 std::vector<SweepPoint> pareto_front(std::vector<SweepPoint> points, bool higher_is_better);
-
-/// The middle of the values, the mean of two where there is no single one; NaN if one of them is.
-double median(std::vector<double> values);
 
 }  // namespace quartet

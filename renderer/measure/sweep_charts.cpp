@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 
 namespace quartet {
 namespace {

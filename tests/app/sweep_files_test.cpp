@@ -35,7 +35,7 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
     each.end = counted_measurement(5, seed == 40 ? 40 : 50);
     each.quality.rank_correlation = seed == 40 ? 0.125 : std::nan("");
     each.quality.stops = {8, 2, seed == 40 ? 3u : 5u};
-    each.quality.oracle_distance = seed == 40 ? 0.75 : 0.625;
+    each.oracle_distance = seed == 40 ? 0.75 : 0.625;
     each.quality.calibration = {{double(seed) + 0.1, double(seed) + 0.2, 60 + seed},
                                 {double(seed) + 0.3, double(seed) + 0.4, 70 + seed}};
     result.runs.push_back(each);

@@ -9,8 +9,8 @@ namespace {
 
 constexpr Rgba8 quality_accent{255, 160, 40};
 
-LaneQuality quality_example() {
-  LaneQuality quality;
+EstimatorQuality quality_example() {
+  EstimatorQuality quality;
   quality.calibration = {{0.0, 0.5, 7}, {0.1, 1e-4, 10}, {0.5, 1e-3, 10}, {3.0, 1e-2, 10}};
   quality.rank_correlation = 0.834;
   quality.stops = {80, 20, 8};
@@ -34,7 +34,7 @@ TEST(QualityChart, HasAPointAGroupAndSaysTheCorrelation) {
 }
 
 TEST(QualityChart, WithoutErrorsItSaysSo) {
-  LaneQuality quality;
+  EstimatorQuality quality;
   quality.rank_correlation = std::nan("");
   const Chart chart = quality_chart(quality, "uniform", quality_accent);
   EXPECT_TRUE(chart.lines.empty());

@@ -1,4 +1,5 @@
 #include "renderer/image/ticks.h"
+#include "renderer/number_text.h"
 
 #include <gtest/gtest.h>
 

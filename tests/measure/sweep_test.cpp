@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "renderer/measure/calibrate.h"
+#include "renderer/measure/interval.h"
 #include "renderer/measure/sweep_charts.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/measure/noisy_source.h"

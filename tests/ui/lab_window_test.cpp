@@ -387,7 +387,7 @@ TEST(LabWindow, AFailureCaseComesWithItsViewAndSaysWhatToLookAt) {
   }
   ASSERT_EQ(hand.state().failure, &failure);
   EXPECT_EQ(hand.state().scene, failure.scene);
-  EXPECT_EQ(hand.state().slots[2][1].kind, failure.view);
+  EXPECT_EQ(hand.state().slots[2][1].kind, find_view(failure.view).key);
   EXPECT_EQ(hand.state().pan_zoom.zoom, failure.zoom);
   EXPECT_EQ(hand.window().message().text, failure.watch);
   // Another scene is no failure case any more.
