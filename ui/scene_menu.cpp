@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
 
+#include "renderer/image/views.h"
 #include "renderer/measure/failure_case.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"

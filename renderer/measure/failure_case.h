@@ -3,7 +3,6 @@
 #include <span>
 #include <string_view>
 
-#include "renderer/image/views.h"
 
 namespace quartet {
 
