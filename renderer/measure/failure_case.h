@@ -3,7 +3,6 @@
 #include <span>
 #include <string_view>
 
-
 namespace quartet {
 
 /// A rectangle in shares of the picture, from the top left.
