@@ -1,8 +1,8 @@
 #include <malloc.h>
 
-#include "app/command_line.h"
-#include "app/interrupt.h"
-#include "app/messages.h"
+#include "app/commands/command_line.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/messages.h"
 
 int main(int argc, char** argv) {
   quartet::prepare_streams();

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "renderer/table.h"
+#include "renderer/base/table.h"
 
 namespace quartet {
 namespace {

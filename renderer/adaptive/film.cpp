@@ -6,7 +6,7 @@
 #include <numeric>
 #include <type_traits>
 
-#include "renderer/adaptive/spread.h"
+#include "renderer/adaptive/estimators/spread.h"
 
 namespace quartet {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "renderer/adaptive/divergence.h"
-#include "renderer/image/image.h"
-#include "renderer/trace/running_mean.h"
+#include "renderer/adaptive/estimators/divergence.h"
+#include "renderer/base/image.h"
+#include "renderer/trace/store/running_mean.h"
 
 namespace quartet {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "renderer/parallel.h"
+#include "renderer/base/parallel.h"
 
 namespace quartet {
 namespace {

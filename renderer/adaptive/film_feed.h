@@ -4,7 +4,7 @@
 #include <span>
 
 #include "renderer/adaptive/film.h"
-#include "renderer/trace/sample_store.h"
+#include "renderer/trace/store/sample_store.h"
 
 namespace quartet {
 

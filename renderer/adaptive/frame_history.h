@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/trace/sample_costs.h"
+#include "renderer/trace/store/sample_costs.h"
 
 namespace quartet {
 

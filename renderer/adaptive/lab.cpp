@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "renderer/parallel.h"
+#include "renderer/base/parallel.h"
+#include "renderer/base/stopwatch.h"
 #include "renderer/scene/synthetic.h"
-#include "renderer/stopwatch.h"
 
 namespace quartet {
 

@@ -11,7 +11,7 @@
 
 #include "renderer/adaptive/lane.h"
 #include "renderer/trace/integrator.h"
-#include "renderer/trace/sample_store.h"
+#include "renderer/trace/store/sample_store.h"
 
 namespace quartet {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "renderer/adaptive/film_feed.h"
-#include "renderer/stopwatch.h"
+#include "renderer/base/stopwatch.h"
 
 namespace quartet {
 namespace {

@@ -7,7 +7,7 @@
 #include "renderer/adaptive/film.h"
 #include "renderer/adaptive/frame_history.h"
 #include "renderer/adaptive/policy.h"
-#include "renderer/trace/sample_store.h"
+#include "renderer/trace/store/sample_store.h"
 
 namespace quartet {
 

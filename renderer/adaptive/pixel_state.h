@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/adaptive/estimator.h"
+#include "renderer/adaptive/estimators/estimator.h"
 
 namespace quartet {
 

@@ -5,8 +5,8 @@
 #include <atomic>
 
 #include "renderer/adaptive/pixel_state.h"
-#include "renderer/parallel.h"
-#include "renderer/table.h"
+#include "renderer/base/parallel.h"
+#include "renderer/base/table.h"
 
 namespace quartet {
 namespace {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "renderer/parallel.h"
+#include "renderer/base/parallel.h"
 
 namespace quartet {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/image/image.h"
+#include "renderer/base/image.h"
 
 namespace quartet {
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "renderer/base/parallel.h"
+#include "renderer/base/table.h"
 #include "renderer/measure/flip.h"
-#include "renderer/parallel.h"
-#include "renderer/table.h"
 
 namespace quartet {
 

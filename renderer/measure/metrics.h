@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "renderer/image/image.h"
+#include "renderer/base/image.h"
 
 namespace quartet {
 

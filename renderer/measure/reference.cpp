@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/image/exr.h"
+#include "renderer/files/exr.h"
 #include "renderer/measure/reference_sums.h"
 
 namespace quartet {

@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <string>
 
-#include "renderer/image/image.h"
+#include "renderer/base/image.h"
 #include "renderer/measure/metrics.h"
-#include "renderer/measure/scene_hash.h"
+#include "renderer/scene/scene_hash.h"
 #include "renderer/trace/integrator.h"
 
 namespace quartet {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "renderer/measure/scene_hash.h"
+#include "renderer/scene/scene_hash.h"
 
 namespace quartet {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "renderer/adaptive/lab.h"
-#include "renderer/parallel.h"
-#include "renderer/stopwatch.h"
-#include "renderer/trace/running_mean.h"
+#include "renderer/base/parallel.h"
+#include "renderer/base/stopwatch.h"
+#include "renderer/trace/store/running_mean.h"
 
 namespace quartet {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "renderer/measure/reference_sums.h"
-#include "renderer/trace/sample_store.h"
+#include "renderer/trace/store/sample_store.h"
 
 namespace quartet {
 

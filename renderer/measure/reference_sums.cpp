@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "renderer/version.h"
+#include "renderer/base/version.h"
 
 namespace quartet {
 

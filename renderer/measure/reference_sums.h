@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/exr.h"
+#include "renderer/files/exr.h"
 #include "renderer/measure/reference.h"
 
 namespace quartet {

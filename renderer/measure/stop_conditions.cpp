@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "renderer/adaptive/effort.h"
-#include "renderer/table.h"
+#include "renderer/base/table.h"
 
 namespace quartet {
 

@@ -7,14 +7,14 @@
 #include <limits>
 #include <utility>
 
-#include "renderer/cancel.h"
-#include "renderer/excerpt.h"
-#include "renderer/printable.h"
-#include "renderer/scene/element.h"
-#include "renderer/scene/light.h"
-#include "renderer/scene/scene_builder.h"
-#include "renderer/scene/sensor.h"
-#include "renderer/scene/shape.h"
+#include "renderer/base/cancel.h"
+#include "renderer/base/excerpt.h"
+#include "renderer/base/printable.h"
+#include "renderer/scene/xml/element.h"
+#include "renderer/scene/xml/light.h"
+#include "renderer/scene/xml/scene_builder.h"
+#include "renderer/scene/xml/sensor.h"
+#include "renderer/scene/xml/shape.h"
 
 namespace quartet {
 namespace {

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <utility>
 
-#include "renderer/printable.h"
+#include "renderer/base/printable.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"
 

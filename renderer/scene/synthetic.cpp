@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/table.h"
+#include "renderer/base/table.h"
 
 namespace quartet {
 namespace {

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "renderer/cancel.h"
+#include "renderer/base/cancel.h"
 
 namespace quartet {
 namespace {

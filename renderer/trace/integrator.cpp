@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "renderer/table.h"
+#include "renderer/base/table.h"
 #include "renderer/trace/path_lanes.h"
 
 namespace quartet {

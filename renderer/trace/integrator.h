@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "renderer/trace/camera_rays.h"
-#include "renderer/trace/sample_source.h"
+#include "renderer/trace/store/sample_source.h"
 #include "renderer/trace/trace_scene.h"
 
 namespace quartet {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "renderer/image/image.h"
+#include "renderer/base/image.h"
 #include "renderer/scene/limits.h"
 #include "renderer/trace/color_at.h"
 #include "renderer/trace/frame.h"

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "renderer/trace/integrator.h"
-#include "renderer/trace/sample_source.h"
+#include "renderer/trace/store/sample_source.h"
 
 namespace quartet {
 

@@ -1,6 +1,6 @@
 #include "renderer/trace/surface.h"
 
-#include "renderer/cancel.h"
+#include "renderer/base/cancel.h"
 #include "renderer/trace/frame.h"
 
 namespace quartet {

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "renderer/adaptive/estimator.h"
-#include "renderer/adaptive/quantiles.h"
-#include "renderer/adaptive/window.h"
+#include "renderer/adaptive/estimators/estimator.h"
+#include "renderer/adaptive/estimators/quantiles.h"
+#include "renderer/adaptive/estimators/window.h"
 
 namespace quartet {
 

@@ -1,4 +1,4 @@
-#include "renderer/adaptive/estimator.h"
+#include "renderer/adaptive/estimators/estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "renderer/adaptive/estimators/sample_estimators.h"
 #include "renderer/adaptive/policy.h"
-#include "renderer/adaptive/sample_estimators.h"
 #include "tests/adaptive/estimator_cases.h"
 #include "tests/adaptive/golden_windows.h"
 

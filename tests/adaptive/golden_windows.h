@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/adaptive/window.h"
+#include "renderer/adaptive/estimators/window.h"
 
 namespace quartet {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "renderer/fast_log2.h"
+#include "renderer/base/fast_log2.h"
 
 namespace quartet {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "renderer/adaptive/lab.h"
-#include "tests/measure/noisy_source.h"
+#include "tests/study/noisy_source.h"
 
 namespace quartet {
 namespace {

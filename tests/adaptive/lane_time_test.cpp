@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "renderer/adaptive/lab.h"
-#include "renderer/stopwatch.h"
+#include "renderer/base/stopwatch.h"
 
 // What a lane is charged: its samples, whoever traced them, its share of reading them, and its own
 // estimates and plans. Sources state what each pixel's samples took. Of clocks only this is used:

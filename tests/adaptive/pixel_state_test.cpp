@@ -10,8 +10,8 @@
 #include <random>
 
 #include "renderer/adaptive/lab.h"
-#include "renderer/adaptive/snapshot.h"
-#include "tests/measure/noisy_source.h"
+#include "renderer/session/snapshot.h"
+#include "tests/study/noisy_source.h"
 
 namespace quartet {
 namespace {

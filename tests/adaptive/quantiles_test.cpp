@@ -1,4 +1,4 @@
-#include "renderer/adaptive/quantiles.h"
+#include "renderer/adaptive/estimators/quantiles.h"
 
 #include <gtest/gtest.h>
 

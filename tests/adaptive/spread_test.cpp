@@ -1,4 +1,4 @@
-#include "renderer/adaptive/spread.h"
+#include "renderer/adaptive/estimators/spread.h"
 
 #include <gtest/gtest.h>
 

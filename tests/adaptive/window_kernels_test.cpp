@@ -1,10 +1,10 @@
-#include "renderer/adaptive/window_kernels.h"
+#include "renderer/adaptive/estimators/window_kernels.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "renderer/adaptive/estimator.h"
+#include "renderer/adaptive/estimators/estimator.h"
 #include "tests/adaptive/golden_windows.h"
 
 namespace quartet {

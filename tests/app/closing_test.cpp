@@ -8,10 +8,10 @@
 #include <csignal>
 #include <thread>
 
-#include "app/closing_time.h"
-#include "app/end_signals.h"
-#include "renderer/image/leftovers.h"
-#include "tests/image/temp_folder.h"
+#include "app/terminal/end_signals.h"
+#include "app/window/closing_time.h"
+#include "renderer/files/leftovers.h"
+#include "tests/files/temp_folder.h"
 #include "tests/wait_until.h"
 
 namespace quartet {

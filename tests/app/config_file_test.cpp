@@ -1,4 +1,4 @@
-#include "app/config_file.h"
+#include "app/window/config_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/home_folder.h"
+#include "app/terminal/home_folder.h"
 
 #include <gtest/gtest.h>
 #include <pwd.h>
@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

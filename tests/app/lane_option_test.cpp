@@ -1,8 +1,8 @@
-#include "app/lane_option.h"
+#include "app/options/lane_option.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

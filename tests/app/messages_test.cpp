@@ -1,4 +1,4 @@
-#include "app/messages.h"
+#include "app/terminal/messages.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <functional>
 #include <string>
 
-#include "renderer/printable.h"
+#include "renderer/base/printable.h"
 
 namespace quartet {
 namespace {

@@ -1,7 +1,7 @@
 // Numbers on the command line: every numeric option of every command, found in the help, refuses
 // what is no number in its range.
 
-#include "app/number_option.h"
+#include "app/options/number_option.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/shell_words.h"
-#include "renderer/image/exr.h"
-#include "renderer/image/staged_files.h"
+#include "app/terminal/shell_words.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/staged_files.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -8,17 +8,17 @@
 #include <cstdlib>
 #include <optional>
 
-#include "app/csv_field.h"
-#include "app/lab_files.h"
-#include "app/lane_option.h"
-#include "renderer/image/exr.h"
-#include "renderer/image/lane_exr.h"
-#include "renderer/image/staged_files.h"
-#include "renderer/printable.h"
-#include "tests/app/csv.h"
+#include "app/options/lane_option.h"
+#include "app/records/csv_field.h"
+#include "app/records/lab_files.h"
+#include "renderer/base/printable.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/staged_files.h"
+#include "renderer/view/lane_exr.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
-#include "ui/lab_figure.h"
+#include "tests/files/temp_folder.h"
+#include "tests/records/csv.h"
+#include "ui/paper/lab_figure.h"
 
 namespace quartet {
 namespace {

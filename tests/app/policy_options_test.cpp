@@ -1,15 +1,15 @@
 // What can be said of a policy, and that nothing is said in vain.
 
-#include "app/policy_options.h"
+#include "app/options/policy_options.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 
-#include "app/lane_option.h"
+#include "app/options/lane_option.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

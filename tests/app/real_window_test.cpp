@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 #include "tests/ui/lab_hand.h"
 
 namespace quartet {

@@ -4,11 +4,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "renderer/image/exr.h"
-#include "renderer/image/png.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/png.h"
 #include "renderer/measure/reference_sums.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -1,17 +1,17 @@
-#include "app/reference_option.h"
+#include "app/options/reference_option.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <optional>
 
-#include "renderer/image/exr.h"
-#include "renderer/image/staged_files.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/staged_files.h"
 #include "renderer/measure/reference_cache.h"
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

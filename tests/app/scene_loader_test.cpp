@@ -1,11 +1,11 @@
-#include "app/scene_loader.h"
+#include "app/window/scene_loader.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
-#include "renderer/cancel.h"
+#include "renderer/base/cancel.h"
 #include "renderer/scene/synthetic.h"
 #include "tests/wait_until.h"
 

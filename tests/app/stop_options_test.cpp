@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "renderer/image/exr.h"
-#include "renderer/image/png.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/png.h"
 #include "renderer/measure/reference.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

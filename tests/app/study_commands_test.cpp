@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/exr.h"
-#include "tests/app/csv.h"
+#include "renderer/files/exr.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
+#include "tests/records/csv.h"
 
 namespace quartet {
 namespace {

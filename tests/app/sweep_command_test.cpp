@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "renderer/adaptive/estimator.h"
-#include "renderer/measure/regions.h"
-#include "tests/app/csv.h"
+#include "renderer/adaptive/estimators/estimator.h"
+#include "renderer/study/regions.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
+#include "tests/records/csv.h"
 
 namespace quartet {
 namespace {

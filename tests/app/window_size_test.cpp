@@ -1,4 +1,4 @@
-#include "app/window_size.h"
+#include "app/window/window_size.h"
 
 #include <gtest/gtest.h>
 

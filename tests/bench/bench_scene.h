@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/base/stopwatch.h"
 #include "renderer/scene/load_scene.h"
-#include "renderer/stopwatch.h"
 #include "renderer/trace/integrator.h"
 
 namespace quartet {

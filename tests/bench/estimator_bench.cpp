@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/adaptive/estimator.h"
+#include "renderer/adaptive/estimators/estimator.h"
 #include "renderer/adaptive/policy.h"
 
 namespace quartet {

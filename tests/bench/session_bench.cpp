@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/adaptive/session.h"
-#include "renderer/image/lane_charts.h"
-#include "renderer/image/views.h"
+#include "renderer/session/session.h"
+#include "renderer/view/lane_charts.h"
+#include "renderer/view/views.h"
 #include "tests/bench/bench_scene.h"
 
 namespace quartet {

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <thread>
 
-#include "app/imgui_screen.h"
-#include "app/lab_driver.h"
-#include "app/offscreen.h"
+#include "app/window/imgui_screen.h"
+#include "app/window/lab_driver.h"
+#include "app/window/offscreen.h"
 #include "renderer/scene/load_scene.h"
 
 namespace quartet {

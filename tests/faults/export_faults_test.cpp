@@ -8,16 +8,16 @@
 #include <optional>
 #include <sstream>
 
-#include "app/config_file.h"
-#include "app/lab_files.h"
+#include "app/records/lab_files.h"
+#include "app/window/config_file.h"
 #include "renderer/adaptive/lab.h"
-#include "renderer/image/exr.h"
-#include "renderer/image/file_target.h"
-#include "renderer/image/png.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/file_target.h"
+#include "renderer/files/png.h"
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/faults/fault_cases.h"
-#include "ui/chart_figure.h"
+#include "ui/paper/chart_figure.h"
 
 namespace quartet {
 namespace {

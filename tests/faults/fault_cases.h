@@ -12,8 +12,8 @@
 #include <string>
 
 #include "tests/faults/failing_new.h"
-#include "tests/image/faulty_calls.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/faulty_calls.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet::test {
 

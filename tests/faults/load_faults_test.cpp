@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/config_file.h"
-#include "renderer/image/exr.h"
+#include "app/window/config_file.h"
+#include "renderer/files/exr.h"
 #include "renderer/measure/reference_render.h"
-#include "renderer/measure/scene_hash.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/scene_hash.h"
 #include "tests/faults/fault_cases.h"
 
 namespace quartet {

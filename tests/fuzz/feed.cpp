@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 

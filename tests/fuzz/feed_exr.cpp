@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "renderer/image/exr.h"
+#include "renderer/files/exr.h"
 #include "renderer/measure/reference.h"
 #include "tests/fuzz/feed.h"
 #include "tests/fuzz/mesh_promises.h"

@@ -1,4 +1,4 @@
-#include "renderer/scene/obj_file.h"
+#include "renderer/scene/mesh/obj_file.h"
 #include "tests/fuzz/feed.h"
 #include "tests/fuzz/mesh_promises.h"
 

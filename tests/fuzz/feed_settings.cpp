@@ -1,4 +1,4 @@
-#include "app/config_file.h"
+#include "app/window/config_file.h"
 #include "tests/fuzz/feed.h"
 #include "tests/fuzz/mesh_promises.h"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/lane_option.h"
-#include "app/run_options.h"
-#include "app/stop_options.h"
+#include "app/commands/commands.h"
+#include "app/options/lane_option.h"
+#include "app/options/run_options.h"
+#include "app/options/stop_options.h"
 #include "tests/fuzz/feed.h"
 
 namespace quartet {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/files/temp_folder.h"
 #include "tests/fuzz/feed.h"
-#include "tests/image/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "renderer/image/srgb.h"
+#include "renderer/files/srgb.h"
 
 namespace quartet {
 namespace {

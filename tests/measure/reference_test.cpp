@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "renderer/adaptive/lab.h"
-#include "renderer/image/exr.h"
+#include "renderer/files/exr.h"
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "renderer/adaptive/lab.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "renderer/cancel.h"
-#include "renderer/excerpt.h"
+#include "renderer/base/cancel.h"
+#include "renderer/base/excerpt.h"
 #include "tests/scene/scene_text.h"
 
 namespace quartet::test {

@@ -1,9 +1,9 @@
-#include "renderer/scene/obj_file.h"
+#include "renderer/scene/mesh/obj_file.h"
 
 #include <fmt/format.h>
 
-#include "renderer/cancel.h"
-#include "renderer/scene/mesh.h"
+#include "renderer/base/cancel.h"
+#include "renderer/scene/mesh/mesh.h"
 #include "tests/scene/scene_text.h"
 
 namespace quartet::test {

@@ -1,4 +1,4 @@
-#include "renderer/scene/polygon.h"
+#include "renderer/scene/mesh/polygon.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "renderer/cancel.h"
+#include "renderer/base/cancel.h"
 
 namespace quartet {
 namespace {

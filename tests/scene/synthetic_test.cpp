@@ -9,7 +9,7 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/scene/load_scene.h"
-#include "renderer/trace/running_mean.h"
+#include "renderer/trace/store/running_mean.h"
 #include "tests/trace/statistics.h"
 
 namespace quartet::test {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "renderer/cancel.h"
+#include "renderer/base/cancel.h"
 #include "tests/trace/bits.h"
 #include "tests/trace/test_scenes.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/image/exr.h"
+#include "renderer/files/exr.h"
 #include "renderer/trace/integrator.h"
 #include "tests/trace/statistics.h"
 #include "tests/trace/test_scenes.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/image/image.h"
+#include "renderer/base/image.h"
 #include "renderer/trace/color_at.h"
 #include "renderer/trace/frame.h"
 #include "tests/trace/chi_square.h"

@@ -1,4 +1,4 @@
-#include "renderer/trace/sample_store.h"
+#include "renderer/trace/store/sample_store.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,4 +1,4 @@
-#include "ui/camera_controls.h"
+#include "ui/widgets/camera_controls.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ui/chart_figure.h"
+#include "ui/paper/chart_figure.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "renderer/image/png.h"
-#include "tests/image/temp_folder.h"
-#include "ui/chart_layout.h"
+#include "renderer/files/png.h"
+#include "tests/files/temp_folder.h"
+#include "ui/paper/chart_layout.h"
 
 namespace quartet {
 namespace {

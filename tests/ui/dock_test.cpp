@@ -1,14 +1,14 @@
 // The dock under the lanes: errors against a reference, by mouse and keys.
 
-#include "ui/dock.h"
+#include "ui/window/dock.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <numeric>
 
-#include "renderer/image/exr.h"
-#include "tests/image/temp_folder.h"
+#include "renderer/files/exr.h"
+#include "tests/files/temp_folder.h"
 #include "tests/ui/lab_hand.h"
 
 namespace quartet {

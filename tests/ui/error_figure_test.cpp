@@ -1,4 +1,4 @@
-#include "ui/error_figure.h"
+#include "ui/paper/error_figure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "ui/figure.h"
+#include "ui/paper/figure.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
-#include "renderer/image/png.h"
-#include "tests/image/temp_folder.h"
-#include "ui/figure_layout.h"
+#include "renderer/files/png.h"
+#include "tests/files/temp_folder.h"
+#include "ui/paper/figure_layout.h"
 
 namespace quartet {
 namespace {

@@ -1,6 +1,6 @@
 // Keys as keyboards of several countries give them.
 
-#include "ui/keyboard.h"
+#include "ui/window/keyboard.h"
 
 #include <gtest/gtest.h>
 

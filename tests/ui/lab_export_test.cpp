@@ -1,17 +1,17 @@
 // What the window exports, and whether the command line beside it makes the same.
 
-#include "app/lab_export.h"
+#include "app/window/lab_export.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "app/lane_option.h"
-#include "renderer/cancel.h"
-#include "renderer/image/exr.h"
-#include "renderer/image/png.h"
+#include "app/options/lane_option.h"
+#include "renderer/base/cancel.h"
+#include "renderer/files/exr.h"
+#include "renderer/files/png.h"
 #include "tests/app/program.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 #include "tests/ui/lab_hand.h"
 
 namespace quartet {

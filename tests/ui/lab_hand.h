@@ -10,10 +10,10 @@
 #include <thread>
 #include <vector>
 
-#include "app/imgui_screen.h"
-#include "app/lab_driver.h"
-#include "app/offscreen.h"
-#include "ui/imgui_compat.h"
+#include "app/window/imgui_screen.h"
+#include "app/window/lab_driver.h"
+#include "app/window/offscreen.h"
+#include "ui/widgets/imgui_compat.h"
 
 namespace quartet {
 

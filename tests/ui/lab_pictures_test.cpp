@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/image/reduce.h"
-#include "renderer/image/views.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/view/reduce.h"
+#include "renderer/view/views.h"
 #include "tests/app/program.h"
 #include "tests/ui/lab_hand.h"
-#include "ui/pan_zoom.h"
-#include "ui/pixel_text.h"
+#include "ui/widgets/pan_zoom.h"
+#include "ui/window/pictures/pixel_text.h"
 
 namespace quartet {
 namespace {

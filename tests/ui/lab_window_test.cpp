@@ -1,6 +1,6 @@
 // The window, used as a hand would use it: mouse and keys in, state and pixels out.
 
-#include "ui/lab_window.h"
+#include "ui/window/lab_window.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,10 +12,10 @@
 
 #include "renderer/adaptive/memory_need.h"
 #include "renderer/scene/synthetic.h"
-#include "tests/image/temp_folder.h"
+#include "tests/files/temp_folder.h"
 #include "tests/ui/lab_hand.h"
-#include "ui/lab_layout.h"
-#include "ui/lane_header.h"
+#include "ui/window/lab_layout.h"
+#include "ui/window/lane_header.h"
 
 namespace quartet {
 namespace {

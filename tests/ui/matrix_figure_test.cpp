@@ -1,4 +1,4 @@
-#include "ui/matrix_figure.h"
+#include "ui/paper/matrix_figure.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "renderer/image/png.h"
-#include "tests/image/temp_folder.h"
+#include "renderer/files/png.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {

@@ -17,16 +17,16 @@
 #include <cstdlib>
 #include <random>
 
-#include "app/imgui_screen.h"
-#include "app/lab_driver.h"
-#include "app/offscreen.h"
-#include "renderer/image/exr.h"
+#include "app/window/imgui_screen.h"
+#include "app/window/lab_driver.h"
+#include "app/window/offscreen.h"
+#include "renderer/files/exr.h"
 #include "renderer/scene/limits.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/synthetic.h"
-#include "tests/image/temp_folder.h"
-#include "ui/imgui_compat.h"
-#include "ui/lab_layout.h"
+#include "tests/files/temp_folder.h"
+#include "ui/widgets/imgui_compat.h"
+#include "ui/window/lab_layout.h"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/common_interface_defs.h>

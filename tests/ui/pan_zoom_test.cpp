@@ -1,4 +1,4 @@
-#include "ui/pan_zoom.h"
+#include "ui/widgets/pan_zoom.h"
 
 #include <gtest/gtest.h>
 

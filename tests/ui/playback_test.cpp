@@ -1,4 +1,4 @@
-#include "ui/playback.h"
+#include "ui/window/playback.h"
 
 #include <gtest/gtest.h>
 

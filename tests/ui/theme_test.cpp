@@ -1,8 +1,8 @@
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
 
 #include <gtest/gtest.h>
 
-#include "ui/imgui_compat.h"
+#include "ui/widgets/imgui_compat.h"
 
 namespace quartet {
 namespace {

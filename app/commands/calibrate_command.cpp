@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/options/lane_option.h"
+#include "app/options/number_option.h"
+#include "app/options/reference_option.h"
+#include "app/options/run_options.h"
+#include "app/options/stop_options.h"
+#include "app/options/usage_error.h"
+#include "app/records/json_text.h"
+#include "app/records/rejected_report.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/shell_words.h"
+#include "renderer/study/calibrate.h"
+
+namespace quartet {
+namespace {
+
+struct CalibrateOptions {
+  RunOptions run;
+  LaneOptions lanes;
+  CommonBudget budget;
+  std::optional<std::uint32_t> frames;
+  std::string error;
+  std::string reference;
+  std::uint32_t reference_spp = 1024;
+  bool json = false;
+};
+
+CommonBudget budget_of(const CalibrateOptions& options) {
+  CommonBudget budget = options.budget;
+  budget.frames = options.frames.value_or(budget.frames);
+  if (!options.error.empty()) {
+    budget.error = parse_error_target(options.error);
+  }
+  const int given =
+      int(budget.spp.has_value()) + int(budget.seconds.has_value()) + int(budget.error.has_value());
+  if (given != 1) {
+    throw UsageError(
+        fmt::format("{} budget{} given; give one of --spp N, --seconds T and --error METRIC=VALUE",
+                    given == 0 ? "no" : "more than one", given == 0 ? "" : "s are"));
+  }
+  return budget;
+}
+
+std::vector<Calibration> calibrate_all(Experiment& experiment,
+                                       const std::vector<SamplingPolicy>& policies,
+                                       const CommonBudget& budget) {
+  const Interrupt interrupt;
+  Progress progress("calibrating");
+  std::vector<Calibration> found;
+  for (const SamplingPolicy& policy : policies) {
+    progress.update(double(found.size()) / double(policies.size()), estimator(policy.estimator).id);
+    auto calibration = calibrate(experiment, policy, budget, interrupt.token());
+    if (!calibration) {
+      throw Interrupted();
+    }
+    found.push_back(std::move(*calibration));
+  }
+  return found;
+}
+
+std::string thresholds_of(const SamplingPolicy& policy) {
+  const Estimator& row = estimator(policy.estimator);
+  std::string text = row.channels == 0 ? "none" : "";
+  for (int c = 0; c < row.channels; ++c) {
+    text += fmt::format("{}{:.6g}", c > 0 ? ", " : "", policy.thresholds[std::size_t(c)]);
+  }
+  return text;
+}
+
+/// The words after "quartet figure SCENE" that show all of them side by side.
+std::string lane_words(const std::vector<Calibration>& found, std::uint32_t frames) {
+  std::string words = fmt::format("--frames {}", frames);
+  for (const Calibration& each : found) {
+    words += " --lane " + shell_word(lane_text(each.policy));
+  }
+  return words;
+}
+
+bool is_comparable(const Calibration& each) {
+  return each.met && estimator(each.policy.estimator).channels > 0;
+}
+
+/// "contrast, kl" of those that a rule holds for.
+template <class Rule>
+std::string ids_of(const std::vector<Calibration>& found, const Rule& rule) {
+  std::vector<std::string_view> ids;
+  for (const Calibration& each : found) {
+    if (rule(each)) {
+      ids.push_back(estimator(each.policy.estimator).id);
+    }
+  }
+  return fmt::format("{}", fmt::join(ids, ", "));
+}
+
+std::string ids_of_unmet(const std::vector<Calibration>& found) {
+  return ids_of(found, [](const Calibration& each) { return !each.met; });
+}
+
+/// What the printed command lacks, as a comment of a shell; empty if it has all.
+std::string missing_text(const std::vector<Calibration>& found, const CommonBudget& budget) {
+  const std::string unmet = ids_of_unmet(found);
+  const std::string plain =
+      ids_of(found, [](const Calibration& each) { return each.met && !is_comparable(each); });
+  std::string text;
+  if (!unmet.empty()) {
+    text = fmt::format("without {}: cannot meet {}", unmet, budget.text());
+  }
+  if (!plain.empty()) {
+    text += fmt::format("{}without {}: no threshold", text.empty() ? "" : "; ", plain);
+  }
+  return text.empty() ? "" : "  # " + text;
+}
+
+void print_table(const std::vector<Calibration>& found, const CommonBudget& budget,
+                 const CalibrateOptions& options) {
+  fmt::print("{:<22} {:>9} {:<30} {:>6} {:>9} {:>9}{}\n", "estimator", "factor", "thresholds",
+             "frames", "mean spp", "seconds",
+             budget.error ? fmt::format(" {:>11}", metric(budget.error->metric).id) : "");
+  for (const Calibration& each : found) {
+    fmt::print("{:<22} {:>9.4g} {:<30} {:>6} {:>9.2f} {:>9.3f}{}\n",
+               estimator(each.policy.estimator).label, each.factor, thresholds_of(each.policy),
+               each.result.record.frame, each.result.mean_spp, each.result.record.seconds,
+               budget.error ? fmt::format(" {:>11.4g}", each.result.values.front()) : "");
+  }
+  for (const Calibration& each : found) {
+    if (!each.met) {
+      fmt::print("{}: {} cannot be met: {}\n", estimator(each.policy.estimator).id, budget.text(),
+                 each.reason);
+    }
+  }
+  // What has no threshold, or none that does, is nothing to compare like with like.
+  std::vector<Calibration> comparable = found;
+  std::erase_if(comparable, [](const Calibration& each) { return !is_comparable(each); });
+  if (!comparable.empty()) {
+    fmt::print("quartet figure {} {} --out DIR{}\n", scene_words(options.run),
+               lane_words(comparable, budget.frames), missing_text(found, budget));
+  }
+}
+
+/// Throws UsageError for an option that no lane's search looks at.
+void check_use(const CalibrateOptions& options, std::span<const SamplingPolicy> policies,
+               const CommonBudget& budget) {
+  const auto has_threshold = [](const SamplingPolicy& policy) {
+    return estimator(policy.estimator).channels > 0;
+  };
+  if (options.frames && std::ranges::none_of(policies, has_threshold)) {
+    throw UsageError(
+        "--frames has no effect: without a threshold, as many frames are run as meet the budget");
+  }
+  const auto needs_reference = [](const SamplingPolicy& policy) {
+    return estimator(policy.estimator).needs_reference;
+  };
+  if (!options.reference.empty() && !budget.error &&
+      std::ranges::none_of(policies, needs_reference)) {
+    throw UsageError("--reference has no effect: it is for --error, and for the estimator oracle");
+  }
+}
+
+std::string json_of(const std::vector<Calibration>& found, const CommonBudget& budget,
+                    const Run& run, const std::string& command_line) {
+  nlohmann::ordered_json json;
+  json["scene"] = run.scene->scene().name;
+  json["command_line"] = command_line;
+  json["budget"] = budget.text();
+  json["frames"] = budget.frames;
+  json["estimators"] = nlohmann::ordered_json::array();
+  for (const Calibration& each : found) {
+    const Estimator& row = estimator(each.policy.estimator);
+    nlohmann::ordered_json entry;
+    entry["estimator"] = row.id;
+    entry["met"] = each.met;
+    if (!each.met) {
+      entry["reason"] = each.reason;
+    }
+    entry["factor"] = each.factor;
+    entry["thresholds"] = std::vector<float>(each.policy.thresholds.begin(),
+                                             each.policy.thresholds.begin() + row.channels);
+    entry["frames"] = each.result.record.frame;
+    entry["mean_spp"] = each.result.mean_spp;
+    entry["rays"] = each.result.record.rays;
+    entry["seconds"] = each.result.record.seconds;
+    if (budget.error) {
+      entry[std::string(metric(budget.error->metric).id)] = each.result.values.front();
+    }
+    entry["runs"] = each.runs;
+    entry["lane"] = lane_text(each.policy);
+    json["estimators"].push_back(std::move(entry));
+  }
+  return json_text(json);
+}
+
+void run_calibrate(const CalibrateOptions& options, const Program& program) {
+  const CommonBudget budget = budget_of(options);
+  const std::vector<SamplingPolicy> policies =
+      policies_of(options.lanes, options.run.policy, {.frames = options.frames, .spp = budget.spp});
+  check_use(options, policies, budget);
+  Run run = prepare_run(options.run, 1);
+  run.lab.statistics = {};
+  std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
+  if (!reference && budget.error) {
+    reference = reference_for(run, options.reference_spp, program.command_line);
+  }
+  run.lab.reference = truth_for(policies, reference);
+  Experiment experiment(sample_source(run.scene, run.settings), run.settings.width,
+                        run.settings.height, run.lab, image_of(reference));
+  const std::vector<Calibration> found = calibrate_all(experiment, policies, budget);
+  if (options.json) {
+    fmt::print("{}\n", json_of(found, budget, run, program.command_line));
+  } else {
+    print_table(found, budget, options);
+  }
+  report_rejected(rejected_of(experiment.lane(), run.settings.seed), options.run, run.scene,
+                  run.settings);
+  tell_if_partial(experiment.store().partial(), options.run);
+  if (const std::string unmet = ids_of_unmet(found); !unmet.empty()) {
+    throw std::runtime_error(fmt::format("{} cannot be met by {}", budget.text(), unmet));
+  }
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app, const Program& program) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Thresholds that give every estimator the same samples, time or error");
+  const auto options = std::make_shared<CalibrateOptions>();
+  add_run_options(*command, options->run);
+  add_lane_options(*command, options->lanes);
+  add_number(*command, "--spp", options->budget.spp, spp_range,
+             "The same mean of samples per pixel");
+  add_number(*command, "--seconds", options->budget.seconds, above_zero<double>,
+             "The same as-if-alone time");
+  CLI::Option* const error =
+      command->add_option("--error", options->error, "The same error, such as relmse=0.01")
+          ->type_name("METRIC=VALUE");
+  add_number(
+      *command, "--frames", options->frames, {1, 10'000'000},
+      fmt::format("Rounds of sampling to take it in; {} if not given", CommonBudget().frames));
+  add_reference_option(*command, options->reference);
+  add_reference_spp_option(*command, options->reference_spp)->needs(error);
+  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  command->footer(
+      "All thresholds of an estimator are scaled by one factor, found by bisection over replays. "
+      "Under the\npolicy vote every pixel gets at least one sample a round, so that --frames "
+      "samples a pixel are the least.\n"
+      "Exit status 1 if a lane cannot meet the goal; the command that is printed leaves it out.\n"
+      "Examples:\n"
+      "  quartet calibrate cornell-checker --spp 24\n"
+      "  quartet calibrate veach-plates --error relmse=0.01 --frames 30 --json");
+  command->callback([options, &program] { run_calibrate(*options, program); });
+}
+
+}  // namespace quartet

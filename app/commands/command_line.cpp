@@ -1,0 +1,162 @@
+#include "app/commands/command_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "app/commands/commands.h"
+#include "app/options/number_option.h"
+#include "app/options/usage_error.h"
+#include "app/terminal/messages.h"
+#include "app/terminal/shell_words.h"
+#include "renderer/base/version.h"
+#include "renderer/scene/load_scene.h"
+
+namespace quartet {
+namespace {
+
+constexpr int failed = 1;
+constexpr int wrong_usage = 2;
+
+std::string joined_command_line(int argc, const char* const* argv) {
+  std::string text = "quartet";
+  for (int i = 1; i < argc; ++i) {
+    text += ' ';
+    text += shell_word(argv[i]);
+  }
+  return text;
+}
+
+int complain(int code, std::string_view message) {
+  tell("{}", message);
+  return code;
+}
+
+/// CLI11's message as one line, with a hint at the help of the command that it is about.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto chosen = app.get_subcommands();
+  const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+  return fmt::format("{} (see quartet{} --help)", text, command);
+}
+
+/// What fits the buffer would be lost without a word after the return.
+int finish_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) {
+    return 0;
+  }
+  const int error = errno != 0 ? errno : EIO;  // of a write before
+  std::clearerr(stdout);
+  return complain(failed,
+                  fmt::format("cannot write to the standard output: {}", std::strerror(error)));
+}
+
+/// The help or the version, whichever was asked for.
+int print_help(const CLI::App& app, const CLI::ParseError& success) {
+  std::ostringstream text;
+  app.exit(success, text, text);
+  std::fputs(text.str().c_str(), stdout);
+  return finish_output();
+}
+
+/// Nothing of the program is empty. A word that is comes from a shell's variable that is not set,
+/// and would count as an option that is not given.
+void check_words(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.empty()) {
+      throw UsageError(
+          fmt::format("the word after '{}' is empty; a variable that is not set?", argv[i - 1]));
+    }
+    if (word.starts_with("--") && word.find('=') == word.size() - 1) {
+      throw UsageError(fmt::format("'{}' has no value; a variable that is not set?", word));
+    }
+  }
+}
+
+/// The window's own options, given beside a command, would do nothing.
+void check_window_options(const CLI::App& app, const WindowOptions& window) {
+  if (app.get_subcommands().empty()) {
+    return;
+  }
+  const std::string command = app.get_subcommands().front()->get_name();
+  const std::string given = window.ui_scale         ? "--ui-scale"
+                            : window.reset_settings ? "--reset-settings"
+                            : !window.scene.empty() ? fmt::format("'{}'", window.scene)
+                                                    : "";
+  if (!given.empty()) {
+    throw UsageError(fmt::format(
+        "{} has no effect before {}: it is for the window, which opens without a command", given,
+        command));
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  const Program program{joined_command_line(argc, argv)};
+  CLI::App app("Quartet: a lab bench for adaptive sampling in path tracing", "quartet");
+  app.set_version_flag("--version", fmt::format("quartet {}", version()));
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Without a command: the lab window; without a display, the report's figures into out/, or\n"
+      "out-2/ and so on if there is one already.\n"
+      "Exit status: 0 done, 1 failed, 2 wrong usage.\n"
+      "Examples:\n"
+      "  quartet veach-plates\n"
+      "  quartet figure cornell-checker --out out\n"
+      "  quartet render veach-plates --estimator uniform --spp 64 -o plates.exr\n"
+      "  quartet list");
+  WindowOptions window;
+  app.add_option("scene", window.scene,
+                 "For the window: a Mitsuba 3 XML file, or the name of a built-in scene");
+  add_number(app, "--ui-scale", window.ui_scale, ui_scale_range,
+             "For the window: size of text and controls; the monitor's if not given");
+  app.add_flag("--reset-settings", window.reset_settings,
+               "For the window: forget layout, views and last scene");
+  add_figure_command(app, program);
+  add_render_command(app, program);
+  add_screenshot_command(app, program);
+  add_reference_command(app, program);
+  add_compare_command(app, program);
+  add_sweep_command(app, program);
+  add_calibrate_command(app, program);
+  add_claims_command(app, program);
+  add_list_command(app, program);
+  add_info_command(app, program);
+  add_trace_command(app, program);
+  add_bias_command(app, program);
+  add_stability_command(app, program);
+  app.parse_complete_callback([&] { check_window_options(app, window); });
+  try {
+    check_words(argc, argv);
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      run_lab_window(window, program);
+    }
+    return finish_output();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      return print_help(app, error);
+    }
+    return complain(wrong_usage, usage_message(app, error));
+  } catch (const ParameterError& error) {
+    return complain(wrong_usage, fmt::format("-D: {}", error.what()));
+  } catch (const std::invalid_argument& error) {
+    return complain(wrong_usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(failed, "out of memory; a smaller --size or --memory would help");
+  } catch (const std::exception& error) {
+    return complain(failed, error.what());
+  }
+}
+
+}  // namespace quartet

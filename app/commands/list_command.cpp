@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/records/json_text.h"
+#include "renderer/adaptive/policy.h"
+#include "renderer/measure/metrics.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/scene/synthetic.h"
+#include "renderer/study/stability/failure_case.h"
+#include "renderer/trace/integrator.h"
+#include "renderer/view/color_map.h"
+#include "renderer/view/tone_map.h"
+#include "ui/paper/lab_figure.h"
+
+namespace quartet {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json tables() {
+  ordered_json json;
+  for (const Estimator& row : estimators()) {
+    json["estimators"].push_back(
+        {{"id", row.id},
+         {"label", row.label},
+         {"unit", row.unit},
+         {"source", row.source},
+         {"default", std::vector<float>(row.default_thresholds.begin(),
+                                        row.default_thresholds.begin() + row.channels)},
+         {"default_source", row.threshold_source},
+         {"default_policy", allocation(row.default_allocation).id},
+         {"needs_reference", row.needs_reference}});
+  }
+  for (const AllocationRow& row : allocations()) {
+    json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
+  }
+  for (const Metric& row : metrics()) {
+    json["metrics"].push_back({{"id", row.id},
+                               {"label", row.label},
+                               {"unit", row.unit},
+                               {"definition", row.definition},
+                               {"higher_is_better", row.higher_is_better}});
+  }
+  for (const SampleUseRow& row : sample_uses()) {
+    json["modes"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
+  }
+  for (const Integrator& row : integrators()) {
+    json["integrators"].push_back(
+        {{"id", row.id}, {"label", row.label}, {"description", row.description}});
+  }
+  for (const ToneMapRow& row : tone_maps()) {
+    json["tone_maps"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
+  }
+  json["scenes"] = builtin_scenes();
+  for (const Synthetic& row : synthetics()) {
+    json["synthetic"].push_back({{"id", fmt::format("synthetic:{}", row.id)},
+                                 {"label", row.label},
+                                 {"mean", row.mean},
+                                 {"variance", row.variance}});
+  }
+  for (const FailureCase& row : failure_cases()) {
+    json["failure_cases"].push_back(
+        {{"id", row.id}, {"scene", row.scene}, {"mode", row.mode}, {"watch", row.watch}});
+  }
+  return json;
+}
+
+void print_tables() {
+  fmt::print("estimators\n");
+  for (const Estimator& row : estimators()) {
+    fmt::print("  {:<15} {}\n", row.id, row.source);
+    if (row.channels > 0) {
+      fmt::print("  {:<15} default {}, {}; policy {}\n", "",
+                 threshold_text(default_policy(row.key)), row.threshold_source,
+                 allocation(row.default_allocation).id);
+    }
+  }
+  fmt::print("policies\n");
+  for (const AllocationRow& row : allocations()) {
+    fmt::print("  {:<15} {}\n", row.id, row.source);
+  }
+  fmt::print("modes\n");
+  for (const SampleUseRow& row : sample_uses()) {
+    fmt::print("  {:<15} {}\n", row.id, row.source);
+  }
+  fmt::print("metrics (x test, r reference)\n");
+  for (const Metric& row : metrics()) {
+    fmt::print("  {:<15} {}\n", row.id, row.definition);
+  }
+  fmt::print("  {:<15} 1/(mse · seconds)\n", "efficiency");
+  fmt::print("integrators\n");
+  for (const Integrator& row : integrators()) {
+    fmt::print("  {:<15} {}\n", row.id, row.description);
+  }
+  fmt::print("tone maps\n");
+  for (const ToneMapRow& row : tone_maps()) {
+    fmt::print("  {:<15} {}\n", row.id, row.source);
+  }
+  fmt::print("scenes\n");
+  for (const std::string& name : builtin_scenes()) {
+    fmt::print("  {}\n", name);
+  }
+  fmt::print("distributions that stand in for a scene\n");
+  for (const Synthetic& row : synthetics()) {
+    fmt::print("  {:<21} {}\n", fmt::format("synthetic:{}", row.id), row.label);
+  }
+  fmt::print("failure cases\n");
+  for (const FailureCase& row : failure_cases()) {
+    fmt::print("  {:<16} {}, in {}\n", row.id, row.mode, row.scene);
+  }
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, const Program&) {
+  CLI::App* command = app.add_subcommand("list",
+                                         "Estimators, policies, modes, metrics, integrators, tone "
+                                         "maps and scenes, with their sources");
+  const auto as_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *as_json, "As JSON");
+  command->footer("Examples:\n  quartet list\n  quartet list --json");
+  command->callback([as_json] {
+    if (*as_json) {
+      fmt::print("{}\n", json_text(tables()));
+    } else {
+      print_tables();
+    }
+  });
+}
+
+}  // namespace quartet

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <tbb/task_arena.h>
+#include "app/commands/commands.h"
+#include "app/options/number_option.h"
+#include "app/options/output_check.h"
+#include "app/options/run_options.h"
+#include "app/options/usage_error.h"
+#include "app/records/rejected_report.h"
+#include "app/records/stability_files.h"
+#include "app/terminal/interrupt.h"
+#include "app/terminal/progress.h"
+#include "renderer/files/staged_files.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/study/stability/verdict.h"
+
+namespace quartet {
+namespace {
+
+struct StabilityCommand {
+  std::vector<std::string> cases;
+  std::vector<std::string> estimators;
+  std::string policy = "batch";
+  std::uint32_t seeds = StabilityOptions().seeds;
+  double spp = StabilityOptions().spp;
+  double target = StabilityOptions().target;
+  std::uint32_t truth_spp = StabilityOptions().truth.most_spp;
+  double confidence = 0.99;
+  RunOptions run;  // its threads
+  std::string out;
+};
+
+/// The study finds its rows again by their ids, so that each may be there once.
+template <class T>
+void add_once(std::vector<T>& list, T value) {
+  if (std::ranges::find(list, value) == list.end()) {
+    list.push_back(value);
+  }
+}
+
+StabilityOptions options_of(const StabilityCommand& command) {
+  StabilityOptions options;
+  for (const std::string& id : command.cases) {
+    add_once(options.cases, &find_failure_case(id));
+  }
+  for (const FailureCase& row : failure_cases()) {
+    if (command.cases.empty()) {
+      options.cases.push_back(&row);
+    }
+  }
+  for (const std::string& id : command.estimators) {
+    const Estimator& row = find_estimator(id);
+    if (row.channels == 0 || row.needs_reference) {
+      throw UsageError(fmt::format(
+          "--estimators: '{}' is what the others are compared with; name those to be studied", id));
+    }
+    add_once(options.estimators, row.key);
+  }
+  for (const Estimator& row : estimators()) {
+    if (command.estimators.empty() && row.channels > 0 && !row.needs_reference) {
+      options.estimators.push_back(row.key);
+    }
+  }
+  options.allocation = find_allocation(command.policy).key;
+  if (options.allocation == AllocationId::vote) {
+    throw UsageError(
+        "--policy: 'vote' never stops sampling, so that no pixel is ever done; choose batch, "
+        "converge or two-level");
+  }
+  options.seeds = command.seeds;
+  options.spp = command.spp;
+  options.target = command.target;
+  options.truth.most_spp = command.truth_spp;
+  options.truth.noise = command.target / 20.0;
+  return options;
+}
+
+/// One line a case that met samples which no film takes.
+void report_rejected(const std::vector<CaseResult>& results) {
+  for (const CaseResult& result : results) {
+    RejectedSamples most;
+    for (const Trial& trial : result.trials) {
+      if (trial.variation == Variation::none) {
+        keep_most(most, trial.rejected);
+      }
+    }
+    if (most.count > 0) {
+      RunOptions options;
+      options.scene = result.failure->scene;
+      const auto scene = std::make_shared<const TraceScene>(open_scene(options.scene));
+      report_rejected(most, options, scene, default_settings(scene->scene()));
+    }
+  }
+}
+
+/// For each case the estimator that fails worst, and how.
+void print_summary(const StabilityOptions& options, const StabilitySummary& summary) {
+  for (const FailureCase* failure : options.cases) {
+    const Cell* worst = nullptr;
+    for (const Cell& cell : summary.cells) {
+      if (cell.failure == failure && (!worst || &verdict(cell) < &verdict(*worst))) {
+        worst = &cell;
+      }
+    }
+    fmt::print("{:<17} {:<16} {:<10} {:<19} {}\n", failure->id,
+               estimator(worst->policy.estimator).id,
+               worst->tuning == Tuning::usual ? "default" : "budget", verdict(*worst).label,
+               verdict(*worst).number(*worst));
+  }
+  const double level = summary.confidence.each();
+  const auto rejected = [&](BiasTest Cell::*picture, BiasTest Cell::*region) {
+    std::size_t count = 0;
+    for (const Cell& cell : summary.cells) {
+      count += ((cell.*picture).p < level ? 1 : 0) + ((cell.*region).p < level ? 1 : 0);
+    }
+    return count;
+  };
+  fmt::print(
+      "bias, of {:.0f} tests at a false-alarm rate of {:g} together: {} in mode reuse, {} in mode "
+      "unbiased\n",
+      summary.confidence.tests, summary.confidence.family, rejected(&Cell::picture, &Cell::region),
+      rejected(&Cell::unbiased_picture, &Cell::unbiased_region));
+}
+
+void run_stability_command(const StabilityCommand& command, const Program& program) {
+  const StabilityOptions options = options_of(command);
+  const int threads = usable_threads(command.run);
+  StagedFiles files(command.out, stability_file_names());
+  std::vector<CaseResult> results;
+  {
+    const Interrupt interrupt;
+    Progress progress("stability");
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+      results = run_stability(
+          options, [&](double done, std::string_view what) { progress.update(done, what); },
+          interrupt.token());
+    });
+    if (results.empty()) {
+      throw Interrupted();
+    }
+  }
+  const StabilitySummary summary = summarize(results, 1.0 - command.confidence);
+  files.finish(
+      [&] { write_stability_files(files, options, results, summary, program.command_line); });
+  print_summary(options, summary);
+  report_rejected(results);
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, const Program& program) {
+  CLI::App* command = app.add_subcommand(
+      "stability", "How each estimator fails: every one on every failure case over many seeds");
+  const auto options = std::make_shared<StabilityCommand>();
+  command
+      ->add_option("--cases,--scenes", options->cases,
+                   "Failure cases, separated by commas; all if not given, see quartet list")
+      ->delimiter(',');
+  command
+      ->add_option("--estimators", options->estimators,
+                   "Separated by commas; all if not given, see quartet list")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "--policy", options->policy,
+          "batch, converge or two-level; under vote every pixel goes on getting samples, so "
+          "that none is ever done")
+      ->capture_default_str();
+  add_seeds_option(*command, options->seeds, 2);
+  add_number(*command, "--spp", options->spp, {9.0, 8000.0},
+             "The common budget, mean samples per pixel; a pixel may have 8 times as many");
+  add_number(*command, "--target", options->target, above_zero<double>,
+             "A pixel is wrong above this squared relative error, (x - r)^2 / (r^2 + 0.01)");
+  add_number(*command, "--truth-spp", options->truth_spp, {512, 1u << 24},
+             "At most so many samples per pixel for what is compared with");
+  add_number(*command, "--confidence", options->confidence, confidence_range,
+             "Of all intervals together, such as 0.99");
+  add_threads_option(*command, options->run);
+  add_out_option(*command, options->out);
+  command->footer(
+      "Writes matrix.png, matrix.pdf, stability.csv (one row a number, with its interval) and "
+      "trials.csv (one row a number and seed).\nRows cost_... and error_... of stability.csv: how "
+      "mean samples and relmse change, as ratios, when thresholds are\nmultiplied or divided by "
+      "1.1, when all radiance doubles, and when the resolution does; then the picture is shrunk\n"
+      "back before it is compared, and the change is relative to that of uniform sampling.\n"
+      "Examples:\n"
+      "  quartet stability --out stability\n"
+      "  quartet stability --cases rare-light,two-valued --estimators contrast,chi2 --seeds 32 "
+      "--out stability");
+  command->callback([options, &program] { run_stability_command(*options, program); });
+}
+
+}  // namespace quartet

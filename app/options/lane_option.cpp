@@ -1,0 +1,191 @@
+#include "app/options/lane_option.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/options/number_option.h"
+#include "app/options/usage_error.h"
+
+namespace quartet {
+namespace {
+
+[[noreturn]] void fail(const std::string& text, const std::string& reason) {
+  throw UsageError(
+      fmt::format("--lane: '{}': {}; write ESTIMATOR or ESTIMATOR:THRESHOLDS with policy=P, "
+                  "mode=M, multiplier=X, max-spp=N, first=N, batch=N, "
+                  "stochastic-rounding as wanted, such as contrast:0.4,0.3,0.6,multiplier=1",
+                  text, reason));
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> words{""};
+  for (const char c : text) {
+    if (c == ',') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+/// Reads one word of a lane that is not a threshold; false if none of the table is called so.
+bool read_parameter(const std::string& text, const std::string& word, PolicyOptions& own) {
+  const std::size_t equals = word.find('=');
+  const std::string name = word.substr(0, equals);
+  for (const PolicyParameter& row : policy_parameters()) {
+    if (row.word != name) {
+      continue;
+    }
+    if (row.given(own)) {
+      fail(text, fmt::format("{} is there twice", name));
+    }
+    const bool has_value = equals != std::string::npos;
+    if (has_value != row.takes_value) {
+      fail(text, fmt::format("{} {}", name, has_value ? "takes no value" : "needs a value"));
+    }
+    const std::string wrong = row.read(has_value ? word.substr(equals + 1) : "", own);
+    if (!wrong.empty()) {
+      fail(text, fmt::format("{}: {}", name, wrong));
+    }
+    return true;
+  }
+  return false;
+}
+
+ChosenLane lane_of(const std::string& text, const PolicyOptions& options) {
+  const std::size_t colon = text.find(':');
+  const Estimator& row = find_estimator(text.substr(0, colon));
+  PolicyOptions own;
+  std::vector<float> thresholds;
+  if (colon != std::string::npos) {
+    for (const std::string& word : split(text.substr(colon + 1))) {
+      if (read_parameter(text, word, own)) {
+        continue;
+      }
+      if (thresholds.size() == std::size_t(row.channels)) {
+        fail(text, fmt::format("'{}' is one too many or unknown", word));
+      }
+      const std::optional<float> number = number_in(word, threshold_limits);
+      if (!number) {
+        fail(text, out_of_range(word, threshold_limits));
+      }
+      thresholds.push_back(*number);
+    }
+  }
+  ChosenLane lane{policy_of(options, row.key, own), own};
+  if (thresholds.size() == 1) {
+    lane.policy.thresholds.fill(thresholds.front());
+  } else if (!thresholds.empty()) {
+    if (thresholds.size() != std::size_t(row.channels)) {
+      fail(text, fmt::format("{} thresholds, not 1 or {}", thresholds.size(), row.channels));
+    }
+    std::ranges::copy(thresholds, lane.policy.thresholds.begin());
+  }
+  return lane;
+}
+
+}  // namespace
+
+void add_lane_options(CLI::App& command, LaneOptions& options) {
+  CLI::Option* const estimators_option =
+      command.add_option("--estimators", options.estimators, "Which, separated by commas")
+          ->delimiter(',')
+          ->capture_default_str();
+  command
+      .add_option("--lane", options.lanes,
+                  "A lane with its own thresholds, once for each, instead of --estimators: "
+                  "kl:0.004,multiplier=1")
+      ->allow_extra_args(false)
+      ->excludes(estimators_option);
+}
+
+std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const PolicyOptions& policy,
+                                        const StopConditions& stop) {
+  std::vector<ChosenLane> lanes;
+  for (const std::string& text : options.lanes) {
+    lanes.push_back(lane_of(text, policy));
+  }
+  for (const std::string& id :
+       options.lanes.empty() ? options.estimators : std::vector<std::string>()) {
+    const EstimatorId key = find_estimator(id).key;
+    for (const ChosenLane& other : lanes) {
+      if (other.policy.estimator == key) {
+        throw UsageError(fmt::format("--estimators: '{}' is named twice; name each once", id));
+      }
+    }
+    lanes.push_back({policy_of(policy, key), {}});
+  }
+  return checked_policies(policy, lanes, stop);
+}
+
+std::string lane_text(const SamplingPolicy& policy) {
+  const Estimator& row = estimator(policy.estimator);
+  std::string text(row.id);
+  char separator = ':';
+  const auto add = [&](const std::string& word) {
+    text += separator + word;
+    separator = ',';
+  };
+  for (int c = 0; c < row.channels; ++c) {
+    add(fmt::format("{}", policy.thresholds[std::size_t(c)]));
+  }
+  const AllocationFields read = fields_read(policy);
+  if (row.channels > 0 && policy.allocation.kind != row.default_allocation) {
+    add(fmt::format("policy={}", allocation(policy.allocation.kind).id));
+  }
+  if (policy.use != SamplingPolicy().use) {
+    add(fmt::format("mode={}", sample_use(policy.use).id));
+  }
+  if (read.multiplier) {
+    add(fmt::format("multiplier={}", policy.allocation.multiplier));
+  }
+  if (read.first && policy.allocation.first > 0) {
+    add(fmt::format("first={}", policy.allocation.first));
+  }
+  if (read.batch && policy.allocation.batch > 0) {
+    add(fmt::format("batch={}", policy.allocation.batch));
+  }
+  if (policy.max_spp != SamplingPolicy().max_spp) {
+    add(fmt::format("max-spp={}", policy.max_spp));
+  }
+  if (read.multiplier && policy.allocation.stochastic_rounding) {
+    add("stochastic-rounding");
+  }
+  return text;
+}
+
+SamplingPolicy policy_of_lane(const std::string& text, const PolicyOptions& options) {
+  const ChosenLane lane = lane_of(text, options);
+  return checked_policies({}, std::span(&lane, 1), {}).front();
+}
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  command.add_option("--heat", options.heat,
+                     "Heatmap scale: linked (0 to the highest of all; the default) or report (each "
+                     "its own)");
+  command.add_option("--tone-map", options.tone_map, "clamp (the default), reinhard or filmic");
+  add_number(command, "--exposure", options.exposure, {-100.0f, 100.0f},
+             "In stops; 0 if not given");
+}
+
+std::string heat_id(HeatRange range) {
+  return range == HeatRange::linked ? "linked" : "report";
+}
+
+ViewSettings view_settings(const ViewOptions& options) {
+  ViewSettings view;
+  view.exposure = options.exposure.value_or(view.exposure);
+  if (!options.tone_map.empty()) {
+    view.tone_map = find_tone_map(options.tone_map).key;
+  }
+  if (!options.heat.empty() && options.heat != "linked" && options.heat != "report") {
+    throw UsageError(
+        fmt::format("--heat: unknown scale '{}'; there are: linked, report", options.heat));
+  }
+  view.heat = options.heat == "report" ? HeatRange::report : HeatRange::linked;
+  return view;
+}
+
+}  // namespace quartet

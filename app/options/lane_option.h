@@ -1,0 +1,43 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/policy_options.h"
+#include "renderer/view/views.h"
+
+namespace quartet {
+
+/// Which lanes a command runs: estimators with their defaults, or each lane spelt out.
+struct LaneOptions {
+  std::vector<std::string> estimators{"contrast", "kl", "chi2", "hellinger"};
+  std::vector<std::string> lanes;
+};
+
+void add_lane_options(CLI::App& command, LaneOptions& options);
+/// The policies of all lanes, for a run that ends as the user said in `stop`. Throws UsageError, as
+/// checked_policies does.
+std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const PolicyOptions& policy,
+                                        const StopConditions& stop);
+
+/// A lane as one word, "kl:0.005,multiplier=0.5", with all that decides of its policy, so that
+/// policy_of_lane reads back one that does the same.
+std::string lane_text(const SamplingPolicy& policy);
+/// `options` hold where the word says nothing. Throws UsageError.
+SamplingPolicy policy_of_lane(const std::string& text, const PolicyOptions& options);
+
+/// How pictures are shown, as options; what is not given is as ViewSettings has it.
+struct ViewOptions {
+  std::string heat;
+  std::string tone_map;
+  std::optional<float> exposure;
+};
+
+void add_view_options(CLI::App& command, ViewOptions& options);
+/// Throws UsageError, or std::invalid_argument for an unknown tone map.
+ViewSettings view_settings(const ViewOptions& options);
+std::string heat_id(HeatRange range);
+
+}  // namespace quartet

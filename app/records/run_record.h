@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "renderer/measure/reference.h"
+#include "renderer/session/snapshot.h"
+
+namespace quartet {
+
+class SampleStore;
+
+/// What a run was and what came of it, for files. All settings, so that the command line and this
+/// reproduce every pixel. Snapshots know their scene and settings here.
+
+/// What the run as a whole took.
+struct RunCost {
+  int threads = 0;
+  const SampleStore* store = nullptr;
+  const SampleStore* pilot_store = nullptr;  ///< null if no lane had a pilot run
+};
+
+/// Text attributes for the header of a lane's EXR.
+/// `run` is that of the files that belong together; empty for a single one.
+std::map<std::string, std::string> exr_attributes(const std::string& command_line,
+                                                  const Snapshot& snapshot, std::size_t lane,
+                                                  const std::string& run = "");
+
+/// One JSON document: settings, the store if its cost is known, the reference if there is one, and
+/// each lane with its history and its errors against the reference.
+std::string json_record(const std::string& command_line, const Snapshot& snapshot,
+                        const std::optional<RunCost>& cost, const Reference* reference = nullptr,
+                        const std::string& run = "");
+
+/// The first line of every long-form CSV.
+inline constexpr std::string_view csv_header =
+    "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,metric,"
+    "value\n";
+/// The thresholds that matter, separated by spaces: no comma inside a CSV field.
+std::string thresholds_text(const SamplingPolicy& policy);
+
+/// Long form, one row a measurement: scene, estimator, policy, thresholds, seed, frame, seconds,
+/// rays, samples, mean_spp, metric, value. Every frame of every lane; the errors against a
+/// reference of its last one.
+std::string csv_record(const Snapshot& snapshot);
+
+}  // namespace quartet

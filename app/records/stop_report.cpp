@@ -1,0 +1,70 @@
+#include "app/records/stop_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/terminal/messages.h"
+#include "renderer/adaptive/effort.h"
+#include "renderer/view/views.h"
+
+namespace quartet {
+namespace {
+
+/// "--frames 30 or --spp 64".
+std::string conditions_text(const StopConditions& stop) {
+  std::vector<std::string> texts;
+  if (stop.frames) {
+    texts.push_back(fmt::format("--frames {}", *stop.frames));
+  }
+  if (stop.spp) {
+    texts.push_back(fmt::format("--spp {:g}", *stop.spp));
+  }
+  if (stop.rays) {
+    texts.push_back(fmt::format("--rays {:g}", *stop.rays));
+  }
+  if (stop.seconds) {
+    texts.push_back(fmt::format("--seconds {:g}", *stop.seconds));
+  }
+  if (stop.error) {
+    texts.push_back(
+        fmt::format("--error {}={:g}", metric(stop.error->metric).id, stop.error->value));
+  }
+  return fmt::format("{}", fmt::join(texts, " or "));
+}
+
+bool is_met(const StopConditions& stop, const Snapshot& snapshot, const LaneSnapshot& lane) {
+  const double error =
+      stop.error && snapshot.reference
+          ? metric(stop.error->metric).compute(radiance_image(snapshot, lane), *snapshot.reference)
+          : 0.0;
+  return stop.progress(lane.history.back(), snapshot.pixels(), error) >= 1.0;
+}
+
+}  // namespace
+
+void tell_if_short(const Snapshot& snapshot, const StopConditions& given) {
+  for (const LaneSnapshot& lane : snapshot.lanes) {
+    const std::uint32_t most = lane.policy.max_spp;
+    const auto full =
+        std::ranges::count_if(lane.taken, [&](std::uint32_t samples) { return samples >= most; });
+    const std::string_view id = estimator(lane.policy.estimator).id;
+    if (lane.plan.total == 0 && given.any() && !is_met(given, snapshot, lane)) {
+      const FrameRecord& last = lane.history.back();
+      tell("{} ended after {} frames, at {:.2f} mean spp, before {}: {}", id, last.frame,
+           mean_spp(last, snapshot.pixels()), conditions_text(given),
+           full > 0 ? fmt::format("no pixel may have another sample; {} of {} have the {} "
+                                  "that --max-spp allows",
+                                  full, lane.taken.size(), most)
+                    : "no pixel wants another sample");
+    } else if (full > 0) {
+      tell("{}: {} of {} pixels have the {} samples that --max-spp allows", id, full,
+           lane.taken.size(), most);
+    }
+  }
+}
+
+}  // namespace quartet

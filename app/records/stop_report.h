@@ -1,0 +1,13 @@
+#pragma once
+
+#include "renderer/measure/stop_conditions.h"
+#include "renderer/session/snapshot.h"
+
+namespace quartet {
+
+/// Lines on stderr for lanes that ended before any of the conditions that the user gave was met,
+/// because no pixel wanted, or might have, another sample; and for pixels that have as many samples
+/// as --max-spp allows. `snapshot` is of the end.
+void tell_if_short(const Snapshot& snapshot, const StopConditions& given);
+
+}  // namespace quartet

@@ -1,0 +1,47 @@
+#include "renderer/session/snapshot.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/base/parallel.h"
+
+namespace quartet {
+
+void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline) {
+  snapshot.width = lab.width();
+  snapshot.height = lab.height();
+  snapshot.frame = lab.frame();
+  assert(std::ranges::all_of(lab.lanes(),
+                             [&](const Lane& lane) { return lane.frame() == snapshot.frame; }));
+  const std::span<const Lane> lanes = lab.lanes();
+  const std::size_t compared = last_is_baseline ? lanes.size() - 1 : lanes.size();
+  snapshot.lanes.resize(compared);
+  if (!last_is_baseline) {
+    snapshot.baseline.reset();
+  } else if (!snapshot.baseline) {
+    snapshot.baseline.emplace();
+  }
+  lab.threads().execute([&] {
+    parallel_for(lanes.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        copy_lane(lanes[i], i < compared ? snapshot.lanes[i] : *snapshot.baseline);
+      }
+    });
+  });
+}
+
+RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane) {
+  return radiance_image(snapshot, snapshot.lanes[lane]);
+}
+
+RadianceImage radiance_image(const Snapshot& snapshot, const LaneSnapshot& lane) {
+  const auto& mean = lane.mean;
+  RadianceImage image(snapshot.width, snapshot.height);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    image.pixels()[i] = {mean[0][i], mean[1][i], mean[2][i]};
+  }
+  return image;
+}
+
+}  // namespace quartet

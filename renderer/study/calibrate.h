@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "renderer/study/experiment.h"
+
+namespace quartet {
+
+/// What every estimator is given, or has to reach, within a number of frames: exactly one of mean
+/// samples a pixel, as-if-alone seconds, and an error.
+struct CommonBudget {
+  std::uint32_t frames = 15;
+  std::optional<double> spp = {};
+  std::optional<double> seconds = {};
+  std::optional<ErrorTarget> error = {};
+
+  /// "24 spp", "3 s" or "relmse 0.01", for messages.
+  std::string text() const;
+  /// What of it a run took or reached.
+  double of(const Measurement& run) const;
+};
+
+/// The threshold that meets a budget.
+struct Calibration {
+  SamplingPolicy policy;  ///< with all thresholds of its estimator scaled by `factor`
+  double factor = 1.0;    ///< against the thresholds that it began with
+  Measurement result;     ///< after the last frame; values: the error, if that is the budget
+  bool met = false;       ///< within a hundredth
+  /// Where it was not met: why, and what the nearest is, in one line.
+  std::string reason;
+  int runs = 0;  ///< that it took
+};
+
+/// Finds, by bisection over replays, the factor on all thresholds of a policy with which a run of
+/// so many frames meets the budget as nearly as it can. The higher the thresholds, the fewer
+/// samples and the more error: the search relies on it. Where the budget lies beyond what any
+/// threshold gives, the nearest end is returned.
+///
+/// A run depends on nothing but samples and policy, so that the same budget gives the same
+/// thresholds, except that measured seconds are never twice the same. An estimator without a
+/// threshold, uniform, has no factor: it runs as many frames as meet the budget.
+///
+/// Nothing if `stop` ended it. Throws std::invalid_argument for a budget that is not exactly one,
+/// or for an error without a reference in the experiment.
+std::optional<Calibration> calibrate(Experiment& experiment, const SamplingPolicy& policy,
+                                     const CommonBudget& budget, std::stop_token stop = {});
+
+/// The policy with all its thresholds scaled.
+SamplingPolicy scaled_thresholds(SamplingPolicy policy, double factor);
+
+}  // namespace quartet

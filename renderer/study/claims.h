@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "renderer/base/interval.h"
+#include "renderer/study/regions.h"
+#include "renderer/study/sweep.h"
+
+namespace quartet {
+
+/// The four criteria of the 2021 report, in its order.
+inline constexpr std::array report_criteria{EstimatorId::contrast, EstimatorId::kl,
+                                            EstimatorId::chi2, EstimatorId::hellinger};
+inline constexpr std::size_t report_criterion_count = report_criteria.size();
+
+/// What one firefly draws: samples that the frame after it gives, in the mean over all fireflies.
+struct FireflyResponse {
+  std::uint64_t fireflies = 0;
+  double nearby = 0.0;   ///< a pixel of its 8 neighbours
+  double further = 0.0;  ///< a pixel at distance 4: beyond any window that saw it
+};
+
+/// One criterion after the report's frames, with one seed.
+struct ClaimRun {
+  std::vector<double> spp;    ///< mean samples per pixel of each region, in the table's order
+  std::vector<double> share;  ///< of all samples
+  double mean_spp = 0.0;
+  double lit_spp = 0.0;  ///< the mean over all pixels but the black margin
+  double seconds = 0.0;  ///< as if alone
+  double relmse = 0.0;
+  double flip = 0.0;
+  double uniform_relmse = 0.0;  ///< of uniform sampling after as many seconds, with the same seed
+  double uniform_flip = 0.0;
+  FireflyResponse firefly;
+};
+
+/// All criteria with one seed, and how alike the maps of samples of the f-divergences are.
+struct ClaimSeed {
+  std::array<ClaimRun, report_criterion_count> runs;
+  double lowest_correlation = 0.0;  ///< of samples a pixel, between two of the three divergences
+};
+
+struct ClaimData {
+  std::vector<std::size_t> pixels;  ///< of each region
+  std::vector<ClaimSeed> seeds;
+  RejectedSamples rejected;  ///< of the run that met most
+};
+
+/// Renders the report's scene as the report did, at several seeds. Nothing if `stop` ended it.
+/// Throws std::runtime_error if the scene is not the report's.
+std::optional<ClaimData> measure_claims(
+    const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t frames,
+    std::uint32_t seeds, std::stop_token stop,
+    const std::function<void(double, std::string_view)>& progress);
+
+/// A value of each seed, with the interval of its mean.
+Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value);
+
+enum class Verdict { holds, does_not_hold, undecided };
+std::string_view verdict_text(Verdict verdict);
+
+/// One condition of a finding: a number that must lie on one side of a limit.
+struct ClaimCheck {
+  std::string text;  ///< what is compared, with the limit
+  Interval value;
+  Verdict verdict = Verdict::undecided;  ///< undecided: the limit lies inside the interval
+};
+
+/// A finding of the report as a rule: it holds if all of its conditions do, and does not if one of
+/// them does not.
+struct Claim {
+  int number = 0;  ///< of the list of findings
+  std::string text;
+  std::vector<ClaimCheck> checks;
+  Verdict verdict = Verdict::undecided;
+};
+
+/// The five findings, judged by 95 % intervals over the seeds.
+std::vector<Claim> judge_claims(const ClaimData& data);
+
+/// Error over that of uniform sampling at equal as-if-alone time, a criterion: below 1 it beats
+/// uniform. The interval is that of the geometric mean over the seeds.
+Interval against_uniform(const ClaimData& data, std::size_t criterion, MetricId metric);
+
+}  // namespace quartet

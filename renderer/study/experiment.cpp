@@ -1,0 +1,98 @@
+#include "renderer/study/experiment.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include "renderer/adaptive/effort.h"
+#include "renderer/adaptive/run_lab.h"
+#include "renderer/base/parallel.h"
+
+namespace quartet {
+namespace {
+
+/// A lab of one lane, which no run has used yet: it costs nothing before its first frame.
+Lab idle_lab(SampleSource source, int width, int height, LabOptions options,
+             const std::shared_ptr<const RadianceImage>& reference) {
+  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  options.reference = reference;
+  return {std::move(source), width, height, std::span(&policy, 1), options};
+}
+
+bool is_measured(MeasureAt at, std::uint32_t frame) {
+  return at == MeasureAt::every_frame ||
+         (at == MeasureAt::powers_of_two && std::has_single_bit(frame));
+}
+
+}  // namespace
+
+Experiment::Experiment(SampleSource source, int width, int height, const LabOptions& options,
+                       std::shared_ptr<const RadianceImage> reference)
+    : reference_(std::move(reference)),
+      source_(source),
+      lab_(idle_lab(std::move(source), width, height, options, reference_)) {
+}
+
+Measurement Experiment::measure(std::span<const MetricId> metrics) const {
+  Measurement measurement;
+  measurement.record = lane().history().back();
+  measurement.mean_spp = mean_spp(measurement.record, lane().film().size());
+  measurement.mean_rays = mean_rays(measurement.record, lane().film().size());
+  if (!metrics.empty()) {
+    const RadianceImage image = lane().film().image();
+    for (const MetricId id : metrics) {
+      measurement.values.push_back(metric(id).compute(image, *reference_));
+    }
+  }
+  return measurement;
+}
+
+std::optional<std::vector<Measurement>> Experiment::run(
+    const RunPlan& plan, std::stop_token stop, const std::function<void(double)>& progress) {
+  if (!plan.stop.any()) {
+    throw std::invalid_argument("an experiment needs a condition that ends it");
+  }
+  if (!reference_ && (!plan.metrics.empty() || plan.stop.error)) {
+    throw std::invalid_argument("an error can only be measured against a reference");
+  }
+  lab_.set_policy(0, plan.policy);
+  std::vector<Measurement> measurements;
+  const bool ended = run_lab(lab_, stop, [&] {
+    const double done = plan.stop.progress(lane(), reference_.get());
+    if (done >= 1.0 || is_measured(plan.measure_at, lane().frame())) {
+      measurements.push_back(measure(plan.metrics));
+    }
+    if (progress) {
+      progress(std::min(done, 1.0));
+    }
+    return done < 1.0;
+  });
+  if (!ended) {
+    return std::nullopt;
+  }
+  samples_used_ += measurements.back().record.samples;
+  return measurements;
+}
+
+Film Experiment::first_samples(std::uint32_t spp) const {
+  Film film(width(), height(), {.variance = true});
+  film.keep_sums();
+  const std::vector<std::uint32_t> none(film.size(), 0);
+  const std::vector<std::uint16_t> all(film.size(), std::uint16_t(spp));
+  const bool stored = store().holds(none, all);
+  parallel_for(film.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<glm::vec3> samples(spp);
+    for (std::size_t pixel = begin; pixel < end; ++pixel) {
+      if (stored) {
+        store().read(pixel, 0, samples);
+      } else {
+        source_(int(pixel) % width(), int(pixel) / width(), 0, samples);
+      }
+      film.add(pixel, samples);
+    }
+  });
+  return film;
+}
+
+}  // namespace quartet

@@ -1,0 +1,75 @@
+#include "renderer/study/stability/audit.h"
+
+#include <cmath>
+
+#include "renderer/base/parallel.h"
+#include "renderer/trace/store/running_mean.h"
+
+namespace quartet {
+namespace {
+
+/// A number in [0, 1) that belongs to (pixel, seed): the finaliser of SplitMix64.
+double lot(std::size_t pixel, std::uint64_t seed) {
+  std::uint64_t x = seed ^ ((pixel + 1) * 0x9e3779b97f4a7c15u);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return double((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+/// Welford 1962, without what no film would take.
+void look(const SampleSource& hidden, int x, int y, std::uint32_t samples, Audit::Pixel& pixel) {
+  std::vector<glm::vec3> radiance(samples);
+  hidden(x, y, 0, radiance);
+  glm::dvec3 squares(0.0);
+  double count = 0.0;
+  for (const glm::vec3& sample : radiance) {
+    if (acceptable(sample)) {
+      count += 1.0;
+      const glm::dvec3 delta = glm::dvec3(sample) - pixel.mean;
+      pixel.mean += delta / count;
+      squares += delta * (glm::dvec3(sample) - pixel.mean);
+    }
+  }
+  pixel.variance_of_mean = count > 1.0 ? squares / (count * (count - 1.0)) : glm::dvec3(0.0);
+}
+
+}  // namespace
+
+Audit::Audit(const SampleSource& hidden, int width, int height, double share, std::uint32_t samples,
+             std::uint64_t seed) {
+  const std::size_t all = std::size_t(width) * std::size_t(height);
+  for (std::size_t pixel = 0; pixel < all; ++pixel) {
+    if (lot(pixel, seed) < share) {
+      pixels_.push_back({pixel, glm::dvec3(0.0), glm::dvec3(0.0)});
+    }
+  }
+  parallel_for(pixels_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto place = int(pixels_[i].pixel);
+      look(hidden, place % width, place / width, samples, pixels_[i]);
+    }
+  });
+}
+
+Audit::Finding Audit::check(std::span<const PixelState> states,
+                            const std::array<std::span<const float>, 3>& means,
+                            double target) const {
+  constexpr double relative_floor = 0.01;  // as in relmse
+  Finding finding;
+  for (const Pixel& audited : pixels_) {
+    if (states[audited.pixel] != PixelState::done) {
+      continue;
+    }
+    double error = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double off = double(means[std::size_t(c)][audited.pixel]) - audited.mean[c];
+      error += (off * off - audited.variance_of_mean[c]) /
+               (audited.mean[c] * audited.mean[c] + relative_floor) / 3.0;
+    }
+    finding.done += 1.0;
+    finding.wrong += error > target ? 1.0 : 0.0;
+  }
+  return finding;
+}
+
+}  // namespace quartet

@@ -1,0 +1,170 @@
+#include "renderer/study/stability/outcome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "renderer/adaptive/effort.h"
+#include "renderer/adaptive/policy.h"
+
+namespace quartet {
+namespace {
+
+constexpr std::array columns{
+    OutcomeColumn{"mean_spp", "samples", &Outcome::mean_spp},
+    OutcomeColumn{"seconds", "s", &Outcome::seconds},
+    OutcomeColumn{"relmse", "", &Outcome::relmse},
+    OutcomeColumn{"worst", "", &Outcome::worst},
+    OutcomeColumn{"fireflies", "", &Outcome::fireflies},
+    OutcomeColumn{"energy", "", &Outcome::energy},
+    OutcomeColumn{"region_energy", "", &Outcome::region_energy},
+    OutcomeColumn{"done", "", &Outcome::done},
+    OutcomeColumn{"missed", "", &Outcome::missed},
+    OutcomeColumn{"never_done", "", &Outcome::never_done},
+    OutcomeColumn{"never_done_cost", "", &Outcome::never_done_cost},
+    OutcomeColumn{"wasted", "", &Outcome::wasted},
+    OutcomeColumn{"off_oracle", "", &Outcome::off_oracle},
+    OutcomeColumn{"region_spp", "samples", &Outcome::region_spp},
+    OutcomeColumn{"rejected", "", &Outcome::rejected},
+    OutcomeColumn{"mean_rays", "rays", &Outcome::mean_rays},
+};
+
+template <class Visit>
+void for_each_pixel(const PixelRegion& region, int width, const Visit& visit) {
+  for (int y = region.top; y < region.bottom; ++y) {
+    for (int x = region.left; x < region.right; ++x) {
+      visit(std::size_t(y) * std::size_t(width) + std::size_t(x));
+    }
+  }
+}
+
+/// Luminance of a region of the picture over that of the truth, less 1; their difference where the
+/// truth is black.
+double energy_of(const RadianceImage& picture, const RadianceImage& truth,
+                 const PixelRegion& region) {
+  double shown = 0.0;
+  double right = 0.0;
+  for_each_pixel(region, picture.width(), [&](std::size_t i) {
+    shown += double(luminance(picture.pixels()[i]));
+    right += double(luminance(truth.pixels()[i]));
+  });
+  return right > 0.0 ? shown / right - 1.0 : (shown - right) / region.pixels();
+}
+
+double share(double part, double whole) {
+  return whole > 0.0 ? part / whole : 0.0;
+}
+
+double mean_of_worst(std::vector<float> errors) {
+  const std::size_t count = std::max<std::size_t>(1, errors.size() / 1000);
+  std::ranges::nth_element(errors, errors.begin() + std::ptrdiff_t(count), std::greater());
+  return std::accumulate(errors.begin(), errors.begin() + std::ptrdiff_t(count), 0.0) /
+         double(count);
+}
+
+double firefly_share(const RadianceImage& picture, const RadianceImage& truth) {
+  double count = 0.0;
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    const float right = luminance(truth.pixels()[i]);
+    const float shown = luminance(picture.pixels()[i]);
+    count += shown - right > 5.0f * (right + 0.1f) ? 1.0 : 0.0;
+  }
+  return count / double(picture.size());
+}
+
+/// Half the sum of the differences of two distributions of samples over pixels.
+double distance(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+  if (a.size() != b.size()) {
+    return 0.0;
+  }
+  const double all_a = std::accumulate(a.begin(), a.end(), 0.0);
+  const double all_b = std::accumulate(b.begin(), b.end(), 0.0);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += std::abs(double(a[i]) / all_a - double(b[i]) / all_b);
+  }
+  return 0.5 * sum;
+}
+
+}  // namespace
+
+std::span<const OutcomeColumn> outcome_columns() {
+  return columns;
+}
+
+Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
+                   const PixelRegion& region) {
+  std::vector<float> errors = squared_errors(picture, truth);
+  Outcome outcome;
+  outcome.relmse = std::accumulate(errors.begin(), errors.end(), 0.0) / double(errors.size());
+  outcome.worst = mean_of_worst(std::move(errors));
+  outcome.fireflies = firefly_share(picture, truth);
+  outcome.energy = energy_of(picture, truth, {0, 0, picture.width(), picture.height()});
+  outcome.region_energy = energy_of(picture, truth, region);
+  return outcome;
+}
+
+void set_cost(Outcome& outcome, const Lane& lane) {
+  const FrameRecord& last = lane.history().back();
+  outcome.mean_spp = mean_spp(last, lane.film().size());
+  outcome.mean_rays = mean_rays(last, lane.film().size());
+  outcome.seconds = last.seconds;
+}
+
+Observation::Observation(const Truth& truth, const PixelRegion& region, double target)
+    : truth_(truth), region_(region), target_(target) {
+}
+
+void Observation::before_frame(const Lane& lane) {
+  if (lane.frame() == 0 || lane.plan().total == 0) {
+    return;
+  }
+  const std::vector<float> errors = squared_errors(lane.film().image(), *truth_.image);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double wanted = lane.plan().wanted[i];
+    spent_ += wanted;
+    wasted_ += double(errors[i]) <= target_ ? wanted : 0.0;
+  }
+}
+
+Outcome Observation::outcome(const Lane& lane, std::span<const std::uint32_t> oracle,
+                             const Audit& audit) {
+  const Film& film = lane.film();
+  const RadianceImage picture = film.image();
+  const double all_samples = double(lane.history().back().samples);
+  Outcome outcome = outcome_of(picture, *truth_.image, region_);
+  set_cost(outcome, lane);
+  outcome.rejected = share(double(film.total_rejected()), all_samples);
+  outcome.wasted = share(wasted_, spent_);
+  outcome.off_oracle = distance(lane.taken(), oracle);
+
+  const std::vector<float> errors = squared_errors(picture, *truth_.image);
+  const std::vector<PixelState> states = pixel_states(lane);
+  double done = 0.0;
+  double missed = 0.0;
+  double never = 0.0;
+  double never_samples = 0.0;
+  double samples = 0.0;
+  std::vector<PixelState> in_region(states.size(), PixelState::refining);
+  for_each_pixel(region_, film.width(), [&](std::size_t i) {
+    const bool wrong = double(errors[i]) > target_;
+    samples += lane.taken()[i];
+    in_region[i] = states[i];
+    if (states[i] == PixelState::done) {
+      done += 1.0;
+      missed += wrong ? 1.0 : 0.0;
+    } else if (states[i] == PixelState::at_maximum && !wrong) {
+      never += 1.0;
+      never_samples += lane.taken()[i];
+    }
+  });
+  outcome.done = done / region_.pixels();
+  outcome.missed = share(missed, done);
+  outcome.never_done = never / region_.pixels();
+  outcome.never_done_cost = share(never_samples, all_samples);
+  outcome.region_spp = samples / region_.pixels();
+  outcome.audit = audit.check(in_region, {film.mean(0), film.mean(1), film.mean(2)}, target_);
+  return outcome;
+}
+
+}  // namespace quartet

@@ -1,0 +1,159 @@
+#include "renderer/study/stability/stability.h"
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "renderer/adaptive/lab.h"
+#include "renderer/base/parallel.h"
+#include "renderer/measure/reference.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/study/calibrate.h"
+
+namespace quartet {
+namespace {
+
+// Shares of a case's time, for the progress bar.
+constexpr double truth_share = 0.3;
+constexpr double tuning_share = 0.1;
+
+struct Stopped {};
+
+/// With its default thresholds.
+SamplingPolicy policy_of(EstimatorId id, const StabilityOptions& options) {
+  SamplingPolicy policy = default_policy(id);
+  policy.allocation.kind = options.allocation;
+  policy.max_spp = std::uint32_t(std::lround(options.spp * maximum_over_budget));
+  return policy;
+}
+
+class Study {
+ public:
+  Study(const StabilityOptions& options,
+        const std::function<void(double, std::string_view)>& progress, std::stop_token stop)
+      : options_(options), progress_(progress), stop_(std::move(stop)) {}
+
+  CaseResult run(std::size_t index);
+
+ private:
+  void advance(double share_of_case);
+  TrialSetup prepare();
+  void tune(TrialSetup& setup);
+  std::vector<Trial> run_seeds(const TrialSetup& setup);
+
+  const StabilityOptions& options_;
+  const std::function<void(double, std::string_view)>& progress_;
+  std::stop_token stop_;
+  std::mutex mutex_;
+  std::size_t index_ = 0;
+};
+
+/// Throws Stopped if the study is to end.
+void Study::advance(double share_of_case) {
+  const std::lock_guard lock(mutex_);
+  progress_((double(index_) + share_of_case) / double(options_.cases.size()),
+            options_.cases[index_]->id);
+  if (stop_.stop_requested()) {
+    throw Stopped();
+  }
+}
+
+TrialSetup Study::prepare() {
+  TrialSetup setup;
+  setup.failure = options_.cases[index_];
+  setup.scene = std::make_shared<const TraceScene>(open_scene(setup.failure->scene));
+  setup.settings = default_settings(setup.scene->scene());
+  setup.target = options_.target;
+  setup.truth = *find_truth(setup.scene, setup.settings, options_.truth, [&](double done) {
+    advance(truth_share * done);
+    return true;
+  });
+  // Seeds that no trial has.
+  RenderSettings hidden = setup.settings;
+  hidden.seed = ~reference_seed;
+  setup.audit =
+      std::make_shared<const Audit>(sample_source(setup.scene, hidden), hidden.width, hidden.height,
+                                    options_.audit_share, options_.audit_samples, hidden.seed);
+  advance(truth_share);
+  setup.uniform = default_policy(EstimatorId::uniform);
+  setup.uniform.max_spp = std::uint32_t(std::lround(options_.spp));
+  for (const EstimatorId id : options_.estimators) {
+    setup.usual.push_back(policy_of(id, options_));
+  }
+  tune(setup);
+  return setup;
+}
+
+/// Finds the thresholds that meet the budget, with a seed that no trial has.
+void Study::tune(TrialSetup& setup) {
+  RenderSettings settings = setup.settings;
+  settings.seed = ~std::uint64_t(0);
+  LabOptions lab;
+  lab.threads = 1;
+  Experiment experiment(sample_source(setup.scene, settings), settings.width, settings.height, lab,
+                        setup.truth.image);
+  // Every policy of the study ends by itself.
+  const CommonBudget budget{.frames = std::numeric_limits<std::uint32_t>::max(),
+                            .spp = options_.spp};
+  const auto tuned = [&](const SamplingPolicy& policy) {
+    const std::optional<Calibration> found = calibrate(experiment, policy, budget, stop_);
+    if (!found) {
+      throw Stopped();
+    }
+    return found->policy;
+  };
+  for (std::size_t i = 0; i < setup.usual.size(); ++i) {
+    setup.budget.push_back(tuned(setup.usual[i]));
+    advance(truth_share + tuning_share * double(i + 1) / double(setup.usual.size() + 1));
+  }
+  setup.oracle = tuned(policy_of(EstimatorId::oracle, options_));
+  advance(truth_share + tuning_share);
+}
+
+std::vector<Trial> Study::run_seeds(const TrialSetup& setup) {
+  std::vector<std::vector<Trial>> of_seed(options_.seeds);
+  std::atomic<std::uint32_t> finished = 0;
+  parallel_for(options_.seeds, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t seed = begin; seed < end; ++seed) {
+      std::optional<std::vector<Trial>> trials = run_trials(setup, std::uint32_t(seed), stop_);
+      if (!trials) {
+        throw Stopped();
+      }
+      of_seed[seed] = std::move(*trials);
+      const double done = double(++finished) / double(options_.seeds);
+      advance(truth_share + tuning_share + (1.0 - truth_share - tuning_share) * done);
+    }
+  });
+  std::vector<Trial> trials;
+  for (std::vector<Trial>& some : of_seed) {
+    trials.insert(trials.end(), some.begin(), some.end());
+  }
+  return trials;
+}
+
+CaseResult Study::run(std::size_t index) {
+  index_ = index;
+  const TrialSetup setup = prepare();
+  return {setup.failure, setup.truth, setup.settings.width, setup.settings.height,
+          run_seeds(setup)};
+}
+
+}  // namespace
+
+std::vector<CaseResult> run_stability(const StabilityOptions& options,
+                                      const std::function<void(double, std::string_view)>& progress,
+                                      std::stop_token stop) {
+  Study study(options, progress, std::move(stop));
+  std::vector<CaseResult> results;
+  try {
+    for (std::size_t i = 0; i < options.cases.size(); ++i) {
+      results.push_back(study.run(i));
+    }
+  } catch (const Stopped&) {
+    return {};
+  }
+  return results;
+}
+
+}  // namespace quartet

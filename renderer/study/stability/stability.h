@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "renderer/study/stability/trial.h"
+
+namespace quartet {
+
+struct StabilityOptions {
+  std::vector<const FailureCase*> cases;
+  std::vector<EstimatorId> estimators;  ///< those with an error; an oracle runs beside them anyway
+  AllocationId allocation = AllocationId::batch;  ///< one that comes to an end: not vote
+  std::uint32_t seeds = 12;                       ///< at least 2
+  double spp = 16.0;                              ///< the common budget, mean samples a pixel
+  double target = 0.1;  ///< squared relative error above which a pixel is wrong
+  TruthEffort truth;
+  std::uint32_t audit_samples = 8192;
+  double audit_share = 1.0 / 32.0;
+};
+
+/// The maximum that a pixel may have, in multiples of the budget.
+inline constexpr double maximum_over_budget = 8.0;
+
+/// What came of all trials of a case.
+struct CaseResult {
+  const FailureCase* failure = nullptr;
+  Truth truth;
+  int width = 0, height = 0;
+  std::vector<Trial> trials;
+};
+
+/// Runs the study, one case after the other, each with seeds side by side on all processors of the
+/// current TBB arena. `progress` is called from any of its threads, one at a time, with the share
+/// that is done and what is being worked on. Empty if `stop` ended it early. Depends on nothing but
+/// the options, times aside.
+std::vector<CaseResult> run_stability(const StabilityOptions& options,
+                                      const std::function<void(double, std::string_view)>& progress,
+                                      std::stop_token stop = {});
+
+}  // namespace quartet

@@ -1,0 +1,29 @@
+#include "renderer/trace/store/sample_costs.h"
+
+namespace quartet {
+
+SampleCosts::Work& SampleCosts::Work::operator+=(const Work& other) {
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    units[i] += other.units[i];
+  }
+  return *this;
+}
+
+void SampleCosts::add(const SampleCosts& other) {
+  work_ += other.work_;
+  for (std::size_t i = 0; i < seconds_.size(); ++i) {
+    seconds_[i] += other.seconds_[i];
+  }
+}
+
+double SampleCosts::seconds(const Work& work) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < seconds_.size(); ++i) {
+    if (work_.units[i] > 0) {
+      sum += double(work.units[i]) * (seconds_[i] / double(work_.units[i]));
+    }
+  }
+  return sum;
+}
+
+}  // namespace quartet

@@ -1,0 +1,387 @@
+#include "renderer/trace/store/sample_store.h"
+
+#include <x86intrin.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <numeric>
+
+#include "renderer/base/parallel.h"
+#include "renderer/base/stopwatch.h"
+
+namespace quartet {
+namespace {
+
+// Samples asked for at a time. Far fewer, and a source that traces several paths at once spends its
+// time waiting for the last ones; many more, and it is long before a pass can be stopped.
+constexpr std::size_t batch_samples = 2048;
+// The same for looking at counts.
+constexpr std::size_t grain_checks = 1 << 15;
+constexpr std::size_t grain_tiles = grain_checks / plane_values;
+
+}  // namespace
+
+SampleStore::SampleStore(int width, int height, std::size_t memory_budget, bool keep_means)
+    : width_(width),
+      height_(height),
+      memory_budget_(memory_budget),
+      places_(std::size_t(width) * std::size_t(height)),
+      firsts_(places_.size(), 0),
+      ends_(places_.size(), 0),
+      prefixes_(keep_means ? places_.size() : 0),
+      has_means_(keep_means) {
+  Tile empty;
+  if (keep_means) {
+    // Of no samples: the same for all tiles.
+    empty.means = {mean_planes_.allocate()};
+    std::ranges::fill(empty.means.front()->radiance, glm::vec3(0.0f));
+  }
+  const auto columns = std::uint32_t(width);
+  const auto rows = std::uint32_t(height);
+  constexpr auto side = std::uint32_t(tile_size);
+  for (std::uint32_t top = 0; top < rows; top += side) {
+    for (std::uint32_t left = 0; left < columns; left += side) {
+      for (std::uint32_t y = top; y < std::min(top + side, rows); ++y) {
+        for (std::uint32_t x = left; x < std::min(left + side, columns); ++x) {
+          const std::uint32_t pixel = y * columns + x;
+          places_[pixel] = {std::uint32_t(tiles_.size()), (y - top) * side + (x - left)};
+          pixels_.push_back(pixel);
+        }
+      }
+      tiles_.push_back(empty);
+      first_pixels_.push_back(pixels_.size());
+    }
+  }
+}
+
+bool SampleStore::holds(std::span<const std::uint32_t> taken,
+                        std::span<const std::uint16_t> wanted) const {
+  assert(taken.size() == ends_.size() && wanted.size() == ends_.size());
+  std::atomic<bool> all = true;
+  parallel_for(ends_.size(), grain_checks, [&](std::size_t begin, std::size_t end) {
+    const std::uint32_t* from = taken.data();
+    const std::uint16_t* count = wanted.data();
+    const std::uint32_t* first = firsts_.data();
+    const std::uint32_t* last = ends_.data();
+    std::uint32_t missing = 0;
+#pragma omp simd reduction(| : missing)
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t lacks =
+          std::uint32_t(from[i] < first[i]) | std::uint32_t(from[i] + count[i] > last[i]);
+      missing |= count[i] > 0 ? lacks : 0u;
+    }
+    if (missing) {
+      all = false;
+    }
+  });
+  return all;
+}
+
+/// Gives the tile planes for samples [begin, end). The pools are for one thread at a time.
+void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end,
+                              std::mutex& pools) {
+  const std::lock_guard lock(pools);
+  if (tile.samples.empty()) {
+    tile.base = has_means_ ? 0 : begin;
+  }
+  if (begin < tile.base) {
+    tile.samples.insert(tile.samples.begin(), tile.base - begin, nullptr);
+    tile.base = begin;
+  }
+  if (end - tile.base > tile.samples.size()) {
+    tile.samples.resize(end - tile.base, nullptr);
+  }
+  for (std::uint32_t i = begin; i < end; ++i) {
+    SamplePlane*& plane = tile.samples[i - tile.base];
+    if (!plane) {
+      plane = sample_planes_.allocate();
+    }
+  }
+  if (has_means_) {
+    // Pixel by pixel a complete store has no gaps, so neither have its tiles.
+    while (tile.means.size() <= end) {
+      tile.means.push_back(mean_planes_.allocate());
+    }
+  }
+}
+
+void SampleStore::release_planes_below(Tile& tile, std::uint32_t index) {
+  const std::size_t count =
+      index > tile.base ? std::min<std::size_t>(index - tile.base, tile.samples.size()) : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (tile.samples[i]) {
+      sample_planes_.release(tile.samples[i]);
+    }
+  }
+  tile.samples.erase(tile.samples.begin(), tile.samples.begin() + std::ptrdiff_t(count));
+  tile.base += std::uint32_t(count);
+}
+
+void SampleStore::clear(std::size_t pixel) {
+  stored_ -= ends_[pixel] - firsts_[pixel];
+  firsts_[pixel] = 0;
+  ends_[pixel] = 0;
+}
+
+/// Lists what is missing, with planes to put it in; tiles are looked at side by side.
+void SampleStore::plan_pass(std::span<const std::uint32_t> begin,
+                            std::span<const std::uint32_t> end) {
+  std::vector<std::size_t> first_jobs(tiles_.size() + 1, 0);  // at first: how many, one tile on
+  std::atomic<std::uint64_t> cleared = 0;
+  std::mutex pools;
+  parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    for (std::size_t tile = first; tile < last; ++tile) {
+      // The planes made last: neighbours mostly want the same.
+      std::uint32_t made_begin = 0;
+      std::uint32_t made_end = 0;
+      for (const std::uint32_t pixel : pixels_of(tile)) {
+        if (begin[pixel] >= end[pixel]) {
+          continue;
+        }
+        if (begin[pixel] < firsts_[pixel] || begin[pixel] > ends_[pixel]) {
+          // A gap, which a store with means never has: no lane is ahead of what was traced for it.
+          assert(!has_means_);
+          cleared += ends_[pixel] - firsts_[pixel];
+          firsts_[pixel] = ends_[pixel] = begin[pixel];
+        }
+        if (end[pixel] <= ends_[pixel]) {
+          continue;
+        }
+        if (ends_[pixel] < made_begin || end[pixel] > made_end) {
+          made_begin = ends_[pixel];
+          made_end = end[pixel];
+          make_planes(tiles_[tile], made_begin, made_end, pools);
+        }
+        ++first_jobs[tile + 1];
+      }
+    }
+  });
+  stored_ -= cleared;
+  std::partial_sum(first_jobs.begin(), first_jobs.end(), first_jobs.begin());
+  jobs_.resize(first_jobs.back());
+  parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    for (std::size_t tile = first; tile < last; ++tile) {
+      std::size_t job = first_jobs[tile];
+      for (const std::uint32_t pixel : pixels_of(tile)) {
+        if (begin[pixel] < end[pixel] && ends_[pixel] < end[pixel]) {
+          jobs_[job++] = {.pixel = pixel, .count = end[pixel] - ends_[pixel]};
+        }
+      }
+    }
+  });
+}
+
+bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
+                          const SampleSource& source, std::stop_token stop) {
+  assert(begin.size() == ends_.size() && end.size() == ends_.size());
+  // Planning is part of what a pass costs.
+  const Stopwatch watch;
+  plan_pass(begin, end);
+  if (jobs_.empty()) {
+    return true;
+  }
+  std::size_t samples = 0;
+  for (const Job& job : jobs_) {
+    samples += job.count;
+  }
+  const std::size_t grain = std::max<std::size_t>(batch_samples * jobs_.size() / samples, 1);
+  parallel_for(jobs_.size(), grain, [&](std::size_t first, std::size_t last) {
+    while (first < last && !stop.stop_requested()) {
+      std::size_t next = first;
+      for (std::size_t count = 0; next < last && count < batch_samples; ++next) {
+        count += jobs_[next].count;
+      }
+      trace_batch(std::span(jobs_).subspan(first, next - first), source);
+      first = next;
+    }
+  });
+  finish_pass(watch.seconds());
+  return !stop.stop_requested();
+}
+
+/// Has these samples made and puts them away. The time of the whole is shared by what the source
+/// says that each pixel took.
+void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
+  const std::uint64_t start = __rdtsc();
+  std::size_t count = 0;
+  for (const Job& job : jobs) {
+    count += job.count;
+  }
+  std::vector<glm::vec3> radiance(count);
+  std::vector<std::uint16_t> rays(count, 0);
+  std::vector<SampleJob> asked;
+  asked.reserve(jobs.size());
+  for (std::size_t begin = 0; const Job& job : jobs) {
+    asked.push_back({.x = int(job.pixel) % width_,
+                     .y = int(job.pixel) / width_,
+                     .first = ends_[job.pixel],
+                     .radiance = std::span(radiance).subspan(begin, job.count),
+                     .rays = std::span(rays).subspan(begin, job.count)});
+    begin += job.count;
+  }
+  source(asked);
+  double work = 0.0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Job& job = jobs[i];
+    const Place place = places_[job.pixel];
+    const Tile& tile = tiles_[place.tile];
+    const std::span<const glm::vec3> samples = asked[i].radiance;
+    job.work = job.count;
+    for (std::uint32_t k = 0; k < job.count; ++k) {
+      SamplePlane& plane = *tile.samples[asked[i].first + k - tile.base];
+      plane.radiance[place.offset] = samples[k];
+      plane.rays[place.offset] = asked[i].rays[k];
+      job.work += asked[i].rays[k];
+      job.rejected |= !acceptable(samples[k]);
+    }
+    if (has_means_) {
+      append_means(job.pixel, samples);
+    }
+    job.traced = true;
+    work += asked[i].work;
+  }
+  const double ticks_per_work = double(__rdtsc() - start) / work;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    jobs[i].ticks = asked[i].work * ticks_per_work;
+  }
+}
+
+/// Writes the means up to each of the samples that come next.
+void SampleStore::append_means(std::uint32_t pixel, std::span<const glm::vec3> samples) {
+  const Place place = places_[pixel];
+  const Tile& tile = tiles_[place.tile];
+  Prefix& prefix = prefixes_[pixel];
+  const std::uint32_t begin = ends_[pixel];
+  RunningMean running{prefix.sum, prefix.count};
+  if (prefix.end != begin) {
+    // An earlier pass threw after it had come here: what it made does not count.
+    running = {};
+    for (std::uint32_t i = 0; i < begin; ++i) {
+      const glm::vec3& sample = tile.samples[i]->radiance[place.offset];
+      if (acceptable(sample)) {
+        running.add(sample);
+      }
+    }
+  }
+  for (std::uint32_t k = 0; k < samples.size(); ++k) {
+    if (acceptable(samples[k])) {
+      running.add(samples[k]);
+    }
+    tile.means[begin + k + 1]->radiance[place.offset] = running.mean();
+  }
+  prefix = {running.sum, running.count, begin + std::uint32_t(samples.size())};
+}
+
+std::size_t SampleStore::cell_of(std::uint32_t tile) const {
+  const auto columns = std::size_t(tile_columns());
+  return SampleCosts::side * SampleCosts::cell(tile / columns, std::size_t(tile_rows())) +
+         SampleCosts::cell(tile % columns, columns);
+}
+
+std::uint64_t SampleStore::tile_work(int column, int row, std::span<const std::uint32_t> taken,
+                                     std::span<const std::uint16_t> wanted) const {
+  const auto width = std::size_t(width_);
+  const Tile& tile = tiles_[std::size_t(row) * std::size_t(tile_columns()) + std::size_t(column)];
+  const std::size_t corner = std::size_t(row * tile_size) * width + std::size_t(column * tile_size);
+  const int columns = std::min(tile_size, width_ - column * tile_size);
+  const int rows = std::min(tile_size, height_ - row * tile_size);
+  std::uint64_t work = 0;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const std::size_t pixel = corner + std::size_t(y) * width + std::size_t(x);
+      const std::size_t offset = std::size_t(y * tile_size + x);
+      const std::uint32_t count = wanted[pixel];
+      const SamplePlane* const* planes = tile.samples.data() + (taken[pixel] - count - tile.base);
+      work += count;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        work += planes[k]->rays[offset];
+      }
+    }
+  }
+  return work;
+}
+
+/// Counts what was traced and shares the pass's wall-clock time by the ticks that each pixel took,
+/// so that the shares add up to what a user waits.
+void SampleStore::finish_pass(double wall) {
+  double total = 0.0;
+  for (const Job& job : jobs_) {
+    total += job.ticks;
+    if (job.rejected) {
+      tiles_[places_[job.pixel].tile].rejected = true;
+    }
+  }
+  const double seconds_per_tick = wall / std::max(total, 1.0);
+  for (const Job& job : jobs_) {
+    if (job.traced) {
+      costs_.add(cell_of(places_[job.pixel].tile), job.work, job.ticks * seconds_per_tick);
+    }
+  }
+  std::atomic<std::uint64_t> made = 0;
+  parallel_for(jobs_.size(), grain_checks, [&](std::size_t first, std::size_t last) {
+    std::uint64_t count = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const Job& job = jobs_[i];
+      if (!job.traced) {
+        continue;  // the pass was stopped before this pixel
+      }
+      ends_[job.pixel] += job.count;
+      count += job.count;
+    }
+    made += count;
+  });
+  stored_ += made;
+  traced_ += made;
+  seconds_ += wall;
+}
+
+void SampleStore::forget_means() {
+  has_means_ = false;
+  for (Tile& tile : tiles_) {
+    tile.means = std::vector<MeanPlane*>();
+  }
+  mean_planes_ = {};
+  prefixes_ = std::vector<Prefix>();
+}
+
+void SampleStore::trim(std::span<const std::uint32_t> used) {
+  assert(used.size() == ends_.size());
+  if (bytes() <= memory_budget_) {
+    return;
+  }
+  forget_means();
+  partial_ = true;
+  std::vector<std::uint32_t> needed(tiles_.size(), UINT32_MAX);
+  for (std::size_t pixel = 0; pixel < ends_.size(); ++pixel) {
+    const std::uint32_t first = std::clamp(used[pixel], firsts_[pixel], ends_[pixel]);
+    stored_ -= first - firsts_[pixel];
+    firsts_[pixel] = first;
+    needed[places_[pixel].tile] = std::min(needed[places_[pixel].tile], first);
+  }
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+    release_planes_below(tiles_[tile], needed[tile]);
+  }
+  // Lanes so far apart that what lies between them fills the budget: trace it again when wanted.
+  if (bytes() > memory_budget_) {
+    for (std::size_t pixel = 0; pixel < ends_.size(); ++pixel) {
+      clear(pixel);
+    }
+    for (Tile& tile : tiles_) {
+      tile = {};
+    }
+    sample_planes_ = {};
+  }
+}
+
+std::size_t SampleStore::bytes() const {
+  std::size_t pointers = 0;
+  for (const Tile& tile : tiles_) {
+    pointers += (tile.samples.capacity() + tile.means.capacity()) * sizeof(void*);
+  }
+  constexpr std::size_t per_pixel = sizeof(Place) + 3 * sizeof(std::uint32_t);
+  return sample_planes_.bytes() + mean_planes_.bytes() + pointers + tiles_.size() * sizeof(Tile) +
+         ends_.size() * per_pixel + prefixes_.size() * sizeof(Prefix);
+}
+
+}  // namespace quartet

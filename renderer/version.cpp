@@ -1,9 +1,0 @@
-#include "renderer/version.h"
-
-namespace quartet {
-
-std::string_view version() {
-  return QUARTET_VERSION;
-}
-
-}  // namespace quartet

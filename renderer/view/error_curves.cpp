@@ -1,0 +1,159 @@
+#include "renderer/view/error_curves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "renderer/base/number_text.h"
+#include "renderer/measure/error_curve.h"
+#include "renderer/measure/metrics.h"
+
+namespace quartet {
+namespace {
+
+constexpr Rgba8 text_color{200, 205, 212, 255};
+constexpr Rgba8 baseline_color{222, 226, 232, 255};
+constexpr Rgba8 floor_color{236, 110, 124, 255};
+
+/// Where a logarithmic chart can show them.
+std::vector<glm::dvec2> curve_of(const LaneSnapshot& lane, const Snapshot& snapshot,
+                                 Effort effort) {
+  std::vector<glm::dvec2> points;
+  for (const FrameRecord& record : lane.history) {
+    const double x = effort_row(effort).of(record, snapshot.pixels());
+    const double y = record.true_error;
+    if (x > 0.0 && y > 0.0 && std::isfinite(y)) {
+      points.emplace_back(x, y);
+    }
+  }
+  return points;
+}
+
+/// Of decibels there is no logarithm worth an axis.
+bool is_logarithmic(const Metric& row) {
+  return !row.higher_is_better;
+}
+
+struct Extent {
+  double low = INFINITY;
+  double high = 0.0;
+
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+Axis vertical_axis(const Metric& row, const Extent& extent) {
+  std::string label(row.label);
+  if (!row.unit.empty()) {
+    label += fmt::format(" ({})", row.unit);
+  }
+  return is_logarithmic(row)
+             ? log_axis(extent.low / 1.2, extent.high * 1.2, label, 5)
+             : linear_axis(std::floor(extent.low), std::ceil(extent.high), label, 5);
+}
+
+Line line_of(std::vector<glm::dvec2> points, Rgba8 color, std::string label, int id) {
+  Line line;
+  line.label = std::move(label);
+  line.color = color;
+  line.points = std::move(points);
+  line.dots = line.points.size() <= 32;
+  line.id = id;
+  return line;
+}
+
+}  // namespace
+
+Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
+  const Metric& row = metric(snapshot.metric);
+  Chart chart;
+  chart.title = fmt::format("{} against {}", row.label, effort_row(what.effort).label);
+  Extent x;
+  Extent y;
+  const auto add = [&](Line line) {
+    for (const glm::dvec2& point : line.points) {
+      x.include(point.x);
+      y.include(point.y);
+    }
+    if (!line.points.empty()) {
+      chart.lines.push_back(std::move(line));
+    }
+  };
+  std::vector<glm::dvec2> uniform;
+  if (snapshot.baseline) {
+    uniform = curve_of(*snapshot.baseline, snapshot, what.effort);
+    add(line_of(uniform, baseline_color, "uniform", -1));
+  }
+  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
+    const LaneSnapshot& lane = snapshot.lanes[i];
+    add(line_of(curve_of(lane, snapshot, what.effort), what.colors[i % what.colors.size()],
+                std::string(estimator(lane.policy.estimator).label), int(i)));
+  }
+  if (chart.lines.empty()) {
+    chart.x = log_axis(0.1, 10.0, std::string(effort_row(what.effort).label), 5);
+    chart.y = vertical_axis(row, {1e-3, 1.0});
+    chart.texts.push_back({{0.5, 0.55}, Align::center, "no errors yet", text_color});
+    return chart;
+  }
+  if (!uniform.empty() && uniform.back().x < x.high) {
+    if (const auto end = baseline_error(snapshot, what.effort, x.high)) {
+      const std::string how = row.quadratic ? "1/samples" : "1/√samples";
+      Line beyond =
+          line_of({uniform.back(), {x.high, *end}}, baseline_color, "uniform, as " + how, -1);
+      beyond.dashed = true;
+      beyond.dots = false;
+      add(std::move(beyond));
+      chart.texts.push_back({{0.99, 0.97},
+                             Align::right,
+                             fmt::format("white: uniform sampling; dashed: taken to fall as {} "
+                                         "beyond what was measured",
+                                         how),
+                             text_color});
+    }
+  }
+  if (what.noise_floor && (!is_logarithmic(row) || *what.noise_floor > 0.0)) {
+    y.include(*what.noise_floor);
+    chart.levels.push_back(
+        {fmt::format("noise floor of the reference {}", format_number(*what.noise_floor)),
+         floor_color, *what.noise_floor});
+  }
+  chart.x = log_axis(x.low / 1.05, x.high * 1.05, std::string(effort_row(what.effort).label), 6);
+  chart.y = vertical_axis(row, y);
+  return chart;
+}
+
+std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, double at) {
+  if (!snapshot.baseline || !(at > 0.0) || metric(snapshot.metric).higher_is_better) {
+    return std::nullopt;
+  }
+  const std::vector<glm::dvec2> points = curve_of(*snapshot.baseline, snapshot, effort);
+  if (points.empty() || at < points.front().x) {
+    return std::nullopt;
+  }
+  std::vector<ErrorCurve::Point> measured;
+  measured.reserve(points.size());
+  for (const glm::dvec2& point : points) {
+    measured.push_back({point.x, point.y});
+  }
+  ErrorCurve curve(std::move(measured));
+  curve.slope_beyond = slope_of(metric(snapshot.metric));
+  return curve.error_at(at);
+}
+
+std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane) {
+  const LaneSnapshot& shown = snapshot.lanes[lane];
+  if (shown.history.empty() || !(shown.history.back().true_error > 0.0)) {
+    return std::nullopt;
+  }
+  const FrameRecord& last = shown.history.back();
+  const auto uniform = baseline_error(snapshot, Effort::seconds, last.seconds);
+  return uniform ? std::optional(*uniform / last.true_error) : std::nullopt;
+}
+
+}  // namespace quartet

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "renderer/adaptive/effort.h"
+#include "renderer/session/snapshot.h"
+#include "renderer/view/chart.h"
+
+namespace quartet {
+
+/// How far each lane has come against the reference and what uniform sampling does instead.
+struct ErrorCurves {
+  Effort effort = Effort::seconds;
+  std::array<Rgba8, 4> colors;        ///< of the lanes; more lanes take them again
+  std::optional<double> noise_floor;  ///< of the reference, in the snapshot's metric
+};
+
+/// Error over effort, log–log: a line a lane (id: its number), the uniform baseline as far as it
+/// was measured and beyond that dashed, as errors of samples at random fall, and the noise floor.
+/// Of decibels the vertical axis is linear. Empty, with a text that says so, for a snapshot without
+/// errors.
+Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what);
+
+/// What uniform sampling reaches with this much effort: measured points are joined by straight
+/// lines in log–log; beyond the last one by the slope of samples at random. None before the first
+/// one, and for decibels.
+std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, double at);
+
+/// How many times uniform sampling's error, after the same seconds, is that of a lane. None without
+/// either.
+std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane);
+
+}  // namespace quartet

@@ -1,0 +1,54 @@
+#include "renderer/view/lane_exr.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "renderer/measure/metrics.h"
+#include "renderer/view/views.h"
+
+namespace quartet {
+
+ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
+  constexpr std::array channel_names{"R", "G", "B"};
+  const LaneSnapshot& from = snapshot.lanes[lane];
+  const std::size_t pixels = snapshot.pixels();
+  ExrImage exr(snapshot.width, snapshot.height);
+  for (std::size_t c = 0; c < 3; ++c) {
+    exr.add(channel_names[c], from.mean[c]);
+  }
+  std::vector<std::uint32_t> rejected = from.rejected;
+  rejected.resize(pixels, 0);
+  std::vector<std::uint32_t> in_mean(pixels);
+  std::ranges::transform(from.taken, rejected, in_mean.begin(), std::minus());
+  exr.add("SampleCount", std::move(in_mean));
+  exr.add("Rejected", std::move(rejected));
+
+  const auto plane = [&](const std::vector<float>& planes, std::size_t c) {
+    const auto first = planes.begin() + std::ptrdiff_t(c * pixels);
+    return std::vector<float>(first, first + std::ptrdiff_t(pixels));
+  };
+  const Estimator& row = estimator(from.policy.estimator);
+  for (std::size_t c = 0; c < from.error.size() / pixels; ++c) {
+    exr.add(row.channels == 1 ? fmt::format("Error.{}", row.id)
+                              : fmt::format("Error.{}.{}", row.id, channel_names[c]),
+            plane(from.error, c));
+  }
+  for (std::size_t c = 0; c < from.variance.size() / pixels; ++c) {
+    exr.add(fmt::format("Variance.{}", channel_names[c]), plane(from.variance, c));
+  }
+  if (snapshot.reference) {
+    const ScalarImage map =
+        metric(MetricId::mse).map(radiance_image(snapshot, lane), *snapshot.reference);
+    std::vector<float> squared(map.pixels().begin(), map.pixels().end());
+    for (float& error : squared) {
+      error = std::min(error, std::numeric_limits<float>::max());
+    }
+    exr.add("SquaredError", std::move(squared));
+  }
+  return exr;
+}
+
+}  // namespace quartet

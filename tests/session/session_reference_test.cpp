@@ -1,0 +1,169 @@
+// A session with ground truth: the errors of its lanes, frame by frame, and the lane of uniform
+// sampling that they are compared with.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "renderer/measure/metrics.h"
+#include "tests/session/session_cases.h"
+
+namespace quartet {
+namespace {
+
+using namespace test;
+
+std::shared_ptr<const RadianceImage> picture_of(float level, int w = width, int h = height) {
+  return std::make_shared<const RadianceImage>(w, h, glm::vec3(level));
+}
+
+/// What a lab without a session says of the errors.
+std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
+  LabOptions options;
+  options.threads = 1;
+  std::vector<SamplingPolicy> policies = request.lanes.policies;
+  policies.push_back(default_policy(EstimatorId::uniform));
+  Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
+          request.store.settings.height, policies, options);
+  std::vector<std::vector<double>> errors(policies.size());
+  while (lab.frame() < request.lanes.frame) {
+    lab.run_frame();
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      errors[i].push_back(metric(request.lanes.metric)
+                              .compute(lab.lanes()[i].film().image(), *request.lanes.reference));
+    }
+  }
+  return errors;
+}
+
+std::vector<double> true_errors(const LaneSnapshot& lane) {
+  std::vector<double> errors;
+  for (const FrameRecord& record : lane.history) {
+    errors.push_back(record.true_error);
+  }
+  return errors;
+}
+
+void expect_errors(Session& session, const LabRequest& request) {
+  const auto snapshot = answer(session, request);
+  ASSERT_TRUE(snapshot);
+  EXPECT_EQ(snapshot->reference, request.lanes.reference);
+  EXPECT_EQ(snapshot->metric, request.lanes.metric);
+  const auto errors = headless_errors(request);
+  ASSERT_EQ(snapshot->lanes.size(), request.lanes.policies.size());
+  ASSERT_TRUE(snapshot->baseline);
+  for (std::size_t i = 0; i < snapshot->lanes.size(); ++i) {
+    EXPECT_EQ(true_errors(snapshot->lanes[i]), errors[i]) << "lane " << i + 1;
+  }
+  EXPECT_EQ(true_errors(*snapshot->baseline), errors.back());
+  EXPECT_EQ(snapshot->baseline->policy, default_policy(EstimatorId::uniform));
+  EXPECT_EQ(snapshot->baseline->history.back().samples,
+            std::uint64_t(request.lanes.frame) * snapshot->pixels());
+  expect_same(*snapshot, headless(request));
+}
+
+TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
+  Session session;
+  LabRequest request = four_lanes();
+  ASSERT_TRUE(answer(session, request));
+  EXPECT_FALSE(session.latest()->baseline);
+  EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.back().true_error));
+  {
+    SCOPED_TRACE("a reference for frames that have been run");
+    request.lanes.reference = picture_of(0.5f);
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("a threshold");
+    request.lanes.policies[1].thresholds[0] *= 0.5f;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("another metric");
+    request.lanes.metric = MetricId::rmse;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("another reference");
+    request.lanes.reference = picture_of(0.25f);
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("a lower frame and a higher one");
+    request.lanes.frame = 3;
+    expect_errors(session, request);
+    request.lanes.frame = 10;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("lanes");
+    request.lanes.policies.pop_back();
+    expect_errors(session, request);
+    request.lanes.policies.push_back(default_policy(EstimatorId::chi2));
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("seed");
+    request.store.settings.seed = 7;
+    expect_errors(session, request);
+  }
+  {
+    SCOPED_TRACE("none");
+    request.lanes.reference.reset();
+    expect_as_headless(session, request);
+    EXPECT_FALSE(session.latest()->baseline);
+    EXPECT_FALSE(session.latest()->reference);
+    EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.front().true_error));
+  }
+}
+
+TEST(SessionThreads, ErrorsAreRightAfterManyChangesThatWereNotWaitedFor) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.lanes.reference = picture_of(0.5f);
+  const LabRequest first = request;
+  ASSERT_TRUE(answer(session, request));
+  for (int i = 0; i < 60; ++i) {
+    request.lanes.policies[std::size_t(i) % 4].thresholds[0] *= i % 2 == 0 ? 0.9f : 1.1f;
+    request.lanes.metric = i % 5 == 0 ? MetricId::mse : MetricId::relmse;
+    session.submit(request);
+    std::this_thread::sleep_for(std::chrono::microseconds(300 * (i % 7)));
+    // Back to what is shown already, with lanes that have begun anew.
+    session.submit(first);
+  }
+  expect_errors(session, first);
+  LabRequest further = first;
+  further.lanes.frame = frames + 2;
+  expect_errors(session, further);
+}
+
+TEST(SessionThreads, AReferenceOfAnotherSizeIsRefused) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.lanes.reference = picture_of(0.5f, width + 1, height);
+  session.submit(request);
+  EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
+  EXPECT_EQ(session.status().error, "the reference has 49 × 27 pixels, the pictures 48 × 27");
+  request.lanes.reference = picture_of(0.5f);
+  expect_errors(session, request);
+}
+
+TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.reference = picture_of(0.5f);
+  for (SamplingPolicy& policy : request.lanes.policies) {
+    policy.allocation.kind = AllocationId::two_level;
+  }
+  session.submit(request);
+  EXPECT_TRUE(wait_until(
+      [&] { return session.latest() && session.latest()->frame >= 2 && !session.busy(); }));
+  EXPECT_FALSE(session.busy());
+  EXPECT_GE(session.latest()->frame, 2u);
+}
+
+}  // namespace
+}  // namespace quartet

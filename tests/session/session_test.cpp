@@ -1,0 +1,273 @@
+#include "renderer/session/session.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "tests/session/session_cases.h"
+#include "tests/trace/test_scenes.h"
+
+namespace quartet {
+namespace {
+
+using namespace test;
+
+TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
+  Session session;
+  EXPECT_FALSE(session.latest());
+  LabRequest request = four_lanes();
+  expect_as_headless(session, request);
+  {
+    SCOPED_TRACE("a threshold");
+    request.lanes.policies[1].thresholds[0] *= 0.5f;
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("an estimator");
+    request.lanes.policies[2] = default_policy(EstimatorId::uniform);
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("a reference, and another");
+    request.lanes.policies[2] = default_policy(EstimatorId::oracle);
+    request.lanes.reference = grey_reference(0.3f);
+    expect_as_headless(session, request);
+    request.lanes.reference = grey_reference(0.5f);
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("a mode");
+    request.lanes.policies[1].use = SampleUse::unbiased;
+    expect_as_headless(session, request);
+    request.lanes.policies[1].use = SampleUse::reuse;
+    expect_as_headless(session, request);
+    request.lanes.policies[2] = default_policy(EstimatorId::uniform);
+    request.lanes.reference.reset();
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("a lower frame");
+    request.lanes.frame = 3;
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("a higher frame");
+    request.lanes.frame = 9;
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("variance");
+    request.lanes.variance = true;
+    expect_as_headless(session, request);
+    request.lanes.variance = false;
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("lanes");
+    request.lanes.policies.pop_back();
+    expect_as_headless(session, request);
+    request.lanes.policies.push_back(default_policy(EstimatorId::hellinger));
+    request.lanes.policies.push_back(default_policy(EstimatorId::uniform));
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("size and seed");
+    request.store.settings.width = 31;
+    request.store.settings.seed = 7;
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("nothing");
+    expect_as_headless(session, request);
+  }
+  {
+    SCOPED_TRACE("frame 0");
+    request.lanes.frame = 0;
+    expect_as_headless(session, request);
+  }
+}
+
+TEST(SessionThreads, AnOracleWithoutAReferenceIsAnError) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.lanes.policies[1] = default_policy(EstimatorId::oracle);
+  session.submit(request);
+  EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
+  EXPECT_NE(session.status().error.find("oracle"), std::string::npos) << session.status().error;
+  // And the session goes on.
+  request.lanes.reference = grey_reference(0.3f);
+  expect_as_headless(session, request);
+}
+
+std::uint64_t stored_samples(const Session& session) {
+  return session.status().stored_samples;
+}
+
+void wait_until_idle(const Session& session) {
+  EXPECT_TRUE(
+      wait_until([&] { return session.status().activity == SessionStatus::Activity::idle; }));
+}
+
+TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
+  Session session;
+  LabRequest request = four_lanes();
+  ASSERT_TRUE(answer(session, request));
+  wait_until_idle(session);
+  const std::uint64_t stored = stored_samples(session);
+  EXPECT_GT(stored, std::uint64_t(width * height * frames));
+
+  request.lanes.policies[0].thresholds = {10.0f, 10.0f, 10.0f};
+  ASSERT_TRUE(answer(session, request));
+  wait_until_idle(session);
+  EXPECT_EQ(stored_samples(session), stored) << "a higher threshold needs nothing new";
+  EXPECT_GT(session.status().replay_seconds, 0.0);
+
+  request.store.settings.camera.origin.x += 0.1f;
+  request.lanes.frame = 1;
+  ASSERT_TRUE(answer(session, request));
+  wait_until_idle(session);
+  EXPECT_EQ(stored_samples(session), std::uint64_t(width * height));
+}
+
+TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
+  std::atomic<int> notified = 0;
+  Session session([&] { ++notified; });
+  LabRequest request = four_lanes();
+  request.lanes.frame = LaneRequest::no_end;
+  session.submit(request);
+  std::uint64_t last = 0;
+  std::uint32_t frame = 0;
+  const auto end = Clock::now() + patience;
+  while (frame < 5 && Clock::now() < end) {
+    if (const auto snapshot = session.latest()) {
+      EXPECT_GE(snapshot->number, last);
+      EXPECT_GE(snapshot->frame, frame);
+      last = snapshot->number;
+      frame = snapshot->frame;
+    }
+  }
+  EXPECT_GE(frame, 5u);
+  // To stop where it stands, a window asks for the frame that it shows.
+  request.lanes.frame = session.latest()->frame;
+  expect_as_headless(session, request);
+  wait_until_idle(session);
+  EXPECT_EQ(session.status().samples_per_second, 0.0);
+  const int before = notified;
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(notified, before);
+  EXPECT_GT(before, 2);
+}
+
+TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.lanes.frame = LaneRequest::no_end;
+  for (SamplingPolicy& policy : request.lanes.policies) {
+    policy.allocation.kind = AllocationId::two_level;
+  }
+  session.submit(request);
+  std::shared_ptr<const Snapshot> snapshot;
+  EXPECT_TRUE(wait_until([&] {
+    snapshot = session.latest();
+    return snapshot && snapshot->frame >= 2;
+  }));
+  wait_until_idle(session);
+  ASSERT_EQ(session.status().activity, SessionStatus::Activity::idle);
+  snapshot = session.latest();
+  for (const LaneSnapshot& lane : snapshot->lanes) {
+    EXPECT_EQ(lane.plan.total, 0u);
+    EXPECT_GE(lane.history.size(), 2u);
+  }
+  // It can be woken again, and goes on from there.
+  request.lanes.policies[0].allocation.kind = AllocationId::vote;
+  request.lanes.frame = 6;
+  expect_as_headless(session, request);
+}
+
+TEST(SessionThreads, AShortMemoryChangesNothing) {
+  Session session;
+  LabRequest request = four_lanes();
+  request.store.memory = 200'000;
+  expect_as_headless(session, request);
+  request.lanes.policies[3].thresholds[0] *= 0.5f;
+  expect_as_headless(session, request);
+  EXPECT_TRUE(session.status().partial);
+}
+
+TEST(SessionThreads, AnErrorIsReportedAndTheSessionLivesOn) {
+  Session session;
+  LabRequest request = four_lanes();
+  ASSERT_TRUE(answer(session, request));
+  const auto before = session.latest();
+
+  LabRequest impossible = request;
+  // More pixels than there are addresses for.
+  impossible.store.settings.width = impossible.store.settings.height = 1 << 30;
+  session.submit(impossible);
+  EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
+  EXPECT_FALSE(session.status().error.empty());
+  EXPECT_EQ(session.latest(), before);
+
+  LabRequest without_lanes = request;
+  without_lanes.lanes.policies.clear();
+  session.submit(without_lanes);
+  EXPECT_TRUE(wait_until([&] { return session.status().error == "no lane to render"; }));
+  EXPECT_EQ(session.status().error, "no lane to render");
+
+  expect_as_headless(session, request);
+  wait_until_idle(session);
+  EXPECT_EQ(session.status().error, "");
+}
+
+/// A closed white room in so many pixels that a frame takes seconds.
+LabRequest long_frame() {
+  Scene room;
+  Sphere walls;
+  walls.radius = 10.0f;
+  walls.flip_normals = true;
+  test::add_shape(room, walls, test::diffuse(1.0f));
+  LabRequest request;
+  request.store.scene = std::make_shared<const TraceScene>(std::move(room));
+  request.store.settings.camera = test::pinhole({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 60.0f);
+  request.store.settings.width = 1600;
+  request.store.settings.height = 1200;
+  request.lanes.policies = {default_policy(EstimatorId::kl)};
+  return request;
+}
+
+TEST(SessionThreads, ClosingEndsTheFrameUnderWay) {
+  std::atomic<const Session*> asked = nullptr;
+  std::atomic<bool> shown = false;
+  auto session = std::make_unique<Session>([&] {
+    if (const Session* open = asked; open && open->latest()) {
+      shown = true;
+    }
+  });
+  asked = session.get();
+  session->submit(long_frame());
+  ASSERT_TRUE(
+      wait_until([&] { return session->status().activity == SessionStatus::Activity::tracing; }));
+  ASSERT_FALSE(session->latest()) << "the frame was over before it could be ended";
+  session.reset();
+  EXPECT_FALSE(shown) << "the frame was traced to its end";
+}
+
+TEST(SessionThreads, ClosesAtAnyMoment) {
+  const LabRequest request = four_lanes();
+  for (int moment = 0; moment < 30; ++moment) {
+    std::shared_ptr<const Snapshot> kept;
+    {
+      Session session;
+      session.submit(request);
+      std::this_thread::sleep_for(std::chrono::microseconds(500 * moment));
+      kept = session.latest();
+    }
+    // A snapshot outlives its session.
+    EXPECT_TRUE(!kept || kept->lanes.size() == request.lanes.policies.size());
+  }
+}
+
+}  // namespace
+}  // namespace quartet

@@ -1,0 +1,184 @@
+#include "renderer/study/bias.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "renderer/base/interval.h"
+#include "renderer/scene/load_scene.h"
+#include "tests/trace/statistics.h"
+
+namespace quartet {
+namespace {
+
+std::vector<BiasRuns> measure(const char* scene, EstimatorId id, AllocationId kind, float threshold,
+                              std::uint32_t frames, std::uint32_t seeds) {
+  auto made = std::make_shared<const TraceScene>(open_scene(scene));
+  RenderSettings settings = default_settings(made->scene());
+  SamplingPolicy policy = default_policy(id);
+  policy.allocation.kind = kind;
+  policy.thresholds = {threshold, threshold, threshold};
+  policy.max_spp = 64;
+  double last = 0.0;
+  std::vector<BiasRuns> runs =
+      measure_bias(made, settings, std::span(&policy, 1), frames, seeds, {}, [&](double done) {
+        EXPECT_GE(done, last);
+        last = done;
+      });
+  EXPECT_DOUBLE_EQ(last, 1.0);
+  return runs;
+}
+
+// Levels of 1e-4 a test, four tests: false alarms 4e-4 over random seeds; these are fixed.
+TEST(Bias, OfReuseIsFoundAndModeUnbiasedHasNone) {
+  for (const AllocationId kind : {AllocationId::batch, AllocationId::vote}) {
+    const std::vector<BiasRuns> runs =
+        measure("synthetic:bernoulli", EstimatorId::chi2, kind, 0.01f, 8, 8);
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_EQ(runs[0].policy.use, SampleUse::reuse);
+    EXPECT_LT(mean_p(runs[0].energy, 0.0), 1e-4);
+    EXPECT_LT(mean_interval(runs[0].energy, 1e-4).high, 0.0);
+    EXPECT_EQ(runs[1].policy.use, SampleUse::unbiased);
+    EXPECT_GT(mean_p(runs[1].energy, 0.0), 1e-4);
+  }
+}
+
+TEST(Bias, OfWhatDecidesNothingIsExactlyZero) {
+  // No error is above this threshold: both modes are uniform sampling, of the same samples.
+  const std::vector<BiasRuns> runs =
+      measure("synthetic:log-normal", EstimatorId::kl, AllocationId::vote, 1e30f, 5, 2);
+  for (const BiasRuns& each : runs) {
+    for (const double energy : each.energy) {
+      EXPECT_EQ(energy, 0.0);
+    }
+    for (const float difference : each.difference.pixels()) {
+      EXPECT_EQ(difference, 0.0f);
+    }
+    EXPECT_EQ(each.mean_spp.front(), each.policy.use == SampleUse::reuse ? 5.0 : 10.0);
+    // Variance e − 1 over five samples, in 18 432 numbers of two seeds each with a heavy tail.
+    EXPECT_NEAR(each.noise, (std::exp(1.0) - 1.0) / 5.0, 0.06);
+  }
+  EXPECT_GT(price_of_unbiasedness(runs[0], runs[1]), 0.0);
+}
+
+/// What one seed's runs show: of a policy in both modes, and of uniform sampling with as many
+/// samples as mode reuse took in the mean.
+struct SeedPictures {
+  std::array<RadianceImage, 2> shown;
+  std::array<double, 2> mean_spp;
+  RadianceImage uniform;
+};
+
+SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderSettings settings,
+                         SamplingPolicy policy, std::uint32_t frames, std::uint64_t seed) {
+  settings.seed = seed;
+  const SampleSource source = sample_source(scene, settings);
+  SeedPictures pictures;
+  for (std::size_t mode = 0; mode < 2; ++mode) {
+    policy.use = mode == 0 ? SampleUse::reuse : SampleUse::unbiased;
+    LabOptions options;
+    options.pilot_source = pilot_source(scene, settings);
+    Lab lab(source, settings.width, settings.height, std::span(&policy, 1), options);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+      lab.run_frame();
+    }
+    pictures.shown[mode] = lab.lanes()[0].film().image();
+    pictures.mean_spp[mode] =
+        double(lab.lanes()[0].history().back().samples) / double(pictures.shown[mode].size());
+  }
+  const SamplingPolicy even = default_policy(EstimatorId::uniform);
+  Lab uniform(source, settings.width, settings.height, std::span(&even, 1));
+  while (uniform.frame() < std::uint32_t(std::lround(pictures.mean_spp[0]))) {
+    uniform.run_frame();
+  }
+  pictures.uniform = uniform.lanes()[0].film().image();
+  return pictures;
+}
+
+double sum_of_luminances(const RadianceImage& image) {
+  double sum = 0.0;
+  for (const glm::vec3& pixel : image.pixels()) {
+    sum += double(luminance(pixel));
+  }
+  return sum;
+}
+
+TEST(Bias, EveryNumberIsThatOfTheSeedsRunsAlone) {
+  const auto scene = std::make_shared<const TraceScene>(open_scene("cornell-box"));
+  RenderSettings settings = default_settings(scene->scene());
+  settings.width = 12;
+  settings.height = 9;
+  settings.seed = 40;
+  SamplingPolicy policy = default_policy(EstimatorId::kl);
+  constexpr std::uint32_t frames = 4;
+  constexpr std::uint32_t seeds = 3;
+  const std::vector<BiasRuns> runs =
+      measure_bias(scene, settings, std::span(&policy, 1), frames, seeds, {}, [](double) {});
+  ASSERT_EQ(runs.size(), 2u);
+  std::vector<SeedPictures> alone;
+  for (std::uint64_t seed = 40; seed < 40 + seeds; ++seed) {
+    alone.push_back(pictures_of(scene, settings, policy, frames, seed));
+  }
+  EXPECT_NE(alone[0].uniform, alone[1].uniform);
+  EXPECT_NE(alone[1].uniform, alone[2].uniform);
+  for (std::size_t mode = 0; mode < 2; ++mode) {
+    SCOPED_TRACE(mode);
+    const BiasRuns& found = runs[mode];
+    ASSERT_EQ(found.energy.size(), seeds);
+    for (std::size_t k = 0; k < seeds; ++k) {
+      EXPECT_DOUBLE_EQ(found.mean_spp[k], alone[k].mean_spp[mode]);
+      EXPECT_NEAR(
+          found.energy[k],
+          sum_of_luminances(alone[k].shown[mode]) / sum_of_luminances(alone[k].uniform) - 1.0,
+          1e-9);
+    }
+    double noise = 0.0;
+    for (std::size_t i = 0; i < found.mean.size(); ++i) {
+      test::Moments off;
+      for (const SeedPictures& each : alone) {
+        off.add(double(luminance(each.shown[mode].pixels()[i])) -
+                double(luminance(each.uniform.pixels()[i])));
+      }
+      EXPECT_NEAR(found.difference.pixels()[i], off.mean(), 1e-6) << i;
+      EXPECT_NEAR(found.standard_error.pixels()[i], off.standard_error(), 1e-6) << i;
+      for (int c = 0; c < 3; ++c) {
+        test::Moments shown;
+        test::Moments uniform;
+        for (const SeedPictures& each : alone) {
+          shown.add(double(each.shown[mode].pixels()[i][c]));
+          uniform.add(double(each.uniform.pixels()[i][c]));
+        }
+        noise += shown.variance() / (3.0 * double(found.mean.size()));
+        EXPECT_NEAR(found.mean.pixels()[i][c], shown.mean(), 1e-6);
+        EXPECT_NEAR(found.uniform.pixels()[i][c], uniform.mean(), 1e-6);
+      }
+    }
+    EXPECT_NEAR(found.noise, noise, 1e-9 + 1e-6 * noise);
+  }
+}
+
+TEST(Bias, ThePriceIsNoiseTimesSecondsOverThoseOfReuse) {
+  BiasRuns reuse;
+  reuse.noise = 0.5;
+  reuse.seconds = {1.0, 3.0};
+  BiasRuns unbiased;
+  unbiased.noise = 2.0;
+  unbiased.seconds = {4.0, 8.0};
+  EXPECT_DOUBLE_EQ(price_of_unbiasedness(reuse, unbiased), 2.0 * 6.0 / (0.5 * 2.0));
+}
+
+TEST(Bias, EndsEarlyIfAskedTo) {
+  auto scene = std::make_shared<const TraceScene>(open_scene("synthetic:bernoulli"));
+  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(measure_bias(
+                  scene, default_settings(scene->scene()), std::span(&policy, 1), 3, 2, {},
+                  [](double) {}, stop.get_token())
+                  .empty());
+}
+
+}  // namespace
+}  // namespace quartet

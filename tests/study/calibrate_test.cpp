@@ -1,0 +1,180 @@
+#include "renderer/study/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "tests/files/temp_folder.h"
+#include "tests/study/noisy_source.h"
+
+namespace quartet {
+namespace {
+
+constexpr int calibrated_width = 96;
+constexpr int calibrated_height = 64;
+
+Experiment make_experiment(int threads = 0) {
+  LabOptions options;
+  options.threads = threads;
+  return Experiment(test::noisy_source(calibrated_width), calibrated_width, calibrated_height,
+                    options,
+                    std::make_shared<const RadianceImage>(
+                        test::noisy_truth(calibrated_width, calibrated_height)));
+}
+
+std::vector<SamplingPolicy> policies_with_thresholds() {
+  std::vector<SamplingPolicy> policies;
+  for (const Estimator& row : estimators()) {
+    if (row.channels > 0) {
+      policies.push_back(default_policy(row.key));
+      policies.back().allocation.kind = AllocationId::vote;
+    }
+  }
+  return policies;
+}
+
+/// What a policy gives, by a run of its own.
+Measurement run_of(const SamplingPolicy& policy, std::uint32_t frames) {
+  Experiment experiment = make_experiment();
+  return experiment
+      .run({.policy = policy, .stop = {.frames = frames}, .metrics = {MetricId::relmse}})
+      ->back();
+}
+
+TEST(Calibrate, EveryEstimatorMeetsTheSameMeanOfSamples) {
+  Experiment experiment = make_experiment();
+  for (const SamplingPolicy& policy : policies_with_thresholds()) {
+    SCOPED_TRACE(estimator(policy.estimator).id);
+    const auto found = calibrate(experiment, policy, {.frames = 12, .spp = 24.0});
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->met) << found->reason;
+    EXPECT_NEAR(found->result.mean_spp, 24.0, 0.24);
+    EXPECT_EQ(found->result.record.frame, 12u);
+    // The thresholds alone reproduce it.
+    EXPECT_EQ(run_of(found->policy, 12).record.samples, found->result.record.samples);
+    // All are scaled alike.
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(found->policy.thresholds[c], float(double(policy.thresholds[c]) * found->factor));
+    }
+    EXPECT_LT(found->runs, 40);
+  }
+}
+
+TEST(Calibrate, IsTheSameTwiceAndWithAnyThreads) {
+  std::vector<Calibration> found;
+  for (const int threads : {1, 2, 2}) {
+    Experiment experiment = make_experiment(threads);
+    found.push_back(
+        *calibrate(experiment, default_policy(EstimatorId::kl), {.frames = 10, .spp = 20.0}));
+  }
+  EXPECT_EQ(found[0].policy, found[1].policy);
+  EXPECT_EQ(found[0].policy, found[2].policy);
+  EXPECT_EQ(found[0].runs, found[1].runs);
+}
+
+TEST(Calibrate, MeetsAnError) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  const double middle = std::sqrt(run_of(scaled_thresholds(policy, 1e6), 12).values[0] *
+                                  run_of(scaled_thresholds(policy, 1e-6), 12).values[0]);
+  const auto found =
+      calibrate(experiment, policy, {.frames = 12, .error = ErrorTarget{MetricId::relmse, middle}});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_NEAR(found->result.values[0], middle, 0.011 * middle);
+}
+
+TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  const auto free =
+      experiment.run({.policy = policy, .stop = {.frames = 12}, .metrics = {MetricId::psnr}});
+  const double psnr = free->back().values[0];
+  const auto found = calibrate(experiment, scaled_thresholds(policy, 1.5),
+                               {.frames = 12, .error = ErrorTarget{MetricId::psnr, psnr}});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->result.values[0], psnr, 0.05);
+}
+
+TEST(Calibrate, SaysWhyABudgetCannotBeMet) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::hellinger);
+  auto found = calibrate(experiment, policy, {.frames = 15, .spp = 4.0});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_EQ(found->reason, "15 frames of vote take at least 15 spp");
+  EXPECT_EQ(found->result.mean_spp, 15.0);
+  found = calibrate(experiment, policy, {.frames = 3, .spp = 50.0});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_EQ(found->reason.substr(0, 30), "3 frames of vote take at most ");
+  EXPECT_GT(found->result.mean_spp, 9.0);
+  found =
+      calibrate(experiment, policy, {.frames = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_NE(found->reason.find("lowest threshold give relmse"), std::string::npos) << found->reason;
+}
+
+TEST(Calibrate, UniformTakesAsManyFramesAsTheBudgetHas) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy uniform = default_policy(EstimatorId::uniform);
+  auto found = calibrate(experiment, uniform, {.frames = 15, .spp = 24.0});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met);
+  EXPECT_EQ(found->result.record.frame, 24u);
+  found = calibrate(experiment, uniform, {.frames = 15, .spp = 2.5});
+  EXPECT_FALSE(found->met);
+  EXPECT_NE(found->reason.find("whole frames"), std::string::npos);
+}
+
+TEST(CommonBudget, IsWhatItSaysOfARun) {
+  Measurement run;
+  run.mean_spp = 3.0;
+  run.record.seconds = 5.0;
+  run.record.samples = 7;
+  run.values = {11.0};
+  const CommonBudget spp{.spp = 24.0};
+  const CommonBudget seconds{.seconds = 1.5};
+  const CommonBudget error{.error = ErrorTarget{MetricId::flip, 0.25}};
+  EXPECT_EQ(spp.of(run), 3.0);
+  EXPECT_EQ(seconds.of(run), 5.0);
+  EXPECT_EQ(error.of(run), 11.0);
+  EXPECT_EQ(spp.text(), "24 spp");
+  EXPECT_EQ(seconds.text(), "1.5 s");
+  EXPECT_EQ(error.text(), "flip 0.25");
+}
+
+TEST(Calibrate, UniformAtABudgetIsTheNearestOfItsFrames) {
+  Experiment experiment = make_experiment();
+  // Two frames are 20 % under 2.5 samples a pixel, three are 20 % above: as a ratio 3 is nearer.
+  const auto found = calibrate(experiment, default_policy(EstimatorId::uniform), {.spp = 2.5});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->result.mean_spp, 3.0);
+  EXPECT_EQ(found->factor, 1.0);
+  EXPECT_EQ(found->runs, 1);
+  EXPECT_EQ(found->reason, "whole frames come no nearer than 3 spp");
+}
+
+TEST(Calibrate, CanBeStopped) {
+  Experiment experiment = make_experiment();
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(
+      calibrate(experiment, default_policy(EstimatorId::kl), {.spp = 24.0}, stop.get_token()));
+}
+
+TEST(Calibrate, WantsExactlyOneBudget) {
+  Experiment experiment = make_experiment();
+  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  EXPECT_NE(error_of([&] { calibrate(experiment, policy, {}); }), "");
+  EXPECT_NE(error_of([&] { calibrate(experiment, policy, {.spp = 3.0, .seconds = 3.0}); }), "");
+  Experiment blind(test::noisy_source(calibrated_width), calibrated_width, calibrated_height, {});
+  const CommonBudget error{.error = ErrorTarget{}};
+  EXPECT_NE(error_of([&] { calibrate(blind, policy, error); }).find("reference"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace quartet

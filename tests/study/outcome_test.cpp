@@ -1,0 +1,216 @@
+#include "renderer/study/stability/outcome.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "renderer/adaptive/lab.h"
+
+// A lane made by hand: the oracle sees which pixels are to be done, the truth says which are
+// wrong, and every sample of a pixel is the same but for two that no film takes.
+
+namespace quartet {
+namespace {
+
+constexpr int made_width = 6;
+constexpr int made_height = 2;
+constexpr std::size_t made_pixels = std::size_t(made_width) * made_height;
+constexpr PixelRegion made_region{1, 0, 6, 2};  // all but the first column
+constexpr double made_target = 0.1;
+
+/// A pixel shows 1; it is done if the oracle's reference says so too, else it is off by 1. The
+/// truth of a wrong one is 2.
+struct Made {
+  bool done;
+  bool wrong;
+};
+
+// Outside of the region: two that are done, one of them wrong and four times as bright.
+// Within: done and right 3, done and wrong 1, at the maximum and right 2, at the maximum and wrong
+// 4.
+constexpr std::array<Made, made_pixels> made{{
+    {true, false},
+    {true, false},
+    {true, true},
+    {false, false},
+    {false, true},
+    {false, true},
+    {true, true},
+    {true, false},
+    {false, true},
+    {false, false},
+    {true, false},
+    {false, true},
+}};
+constexpr std::size_t bright = 6;
+
+float scale_of(std::size_t pixel) {
+  return pixel == bright ? 4.0f : 1.0f;
+}
+
+RadianceImage true_picture() {
+  RadianceImage image(made_width, made_height);
+  for (std::size_t i = 0; i < made_pixels; ++i) {
+    image.pixels()[i] = glm::vec3(scale_of(i) * (made[i].wrong ? 2.0f : 1.0f));
+  }
+  return image;
+}
+
+/// What the oracle compares with.
+RadianceImage oracle_picture() {
+  RadianceImage image(made_width, made_height);
+  for (std::size_t i = 0; i < made_pixels; ++i) {
+    image.pixels()[i] = glm::vec3(scale_of(i) + (made[i].done ? 0.0f : 1.0f));
+  }
+  return image;
+}
+
+void sample_made(int x, int y, std::uint32_t first, std::span<glm::vec3> radiance) {
+  const auto pixel = std::size_t(y * made_width + x);
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    const std::size_t index = first + i;
+    const bool bad = (pixel == 1 && index == 1) || (pixel == 4 && index == 6);
+    radiance[i] = glm::vec3(bad ? std::numeric_limits<float>::quiet_NaN() : scale_of(pixel));
+  }
+}
+
+/// Four samples of each pixel, then two more of those that are not done, up to eight.
+SamplingPolicy made_policy(SampleUse use = SampleUse::reuse) {
+  SamplingPolicy policy = default_policy(EstimatorId::oracle);
+  policy.allocation.kind = AllocationId::batch;
+  policy.allocation.first = 4;
+  policy.allocation.batch = 2;
+  policy.thresholds[0] = 0.25f;
+  policy.max_spp = 8;
+  policy.use = use;
+  return policy;
+}
+
+Lab made_lab(const SamplingPolicy& policy) {
+  LabOptions options;
+  options.reference = std::make_shared<const RadianceImage>(oracle_picture());
+  options.pilot_source = SampleSource(sample_made);
+  return {SampleSource(sample_made), made_width, made_height, std::span(&policy, 1), options};
+}
+
+Truth made_truth() {
+  Truth truth;
+  truth.image = std::make_shared<const RadianceImage>(true_picture());
+  return truth;
+}
+
+/// Knows the truth of every pixel without noise.
+Audit made_audit() {
+  const SampleSource hidden = [](int x, int y, std::uint32_t, std::span<glm::vec3> radiance) {
+    std::ranges::fill(radiance, true_picture().at(x, y));
+  };
+  return {hidden, made_width, made_height, 1.0, 2, 0};
+}
+
+/// The lane and its outcome, once it wants no more.
+Outcome run_to_end(Lab& lab, const Truth& truth) {
+  Observation observation(truth, made_region, made_target);
+  while (lab.lanes()[0].plan().total > 0) {
+    observation.before_frame(lab.lanes()[0]);
+    lab.run_frame();
+  }
+  const std::vector<std::uint32_t> even(made_pixels, 6);
+  return observation.outcome(lab.lanes()[0], even, made_audit());
+}
+
+TEST(Outcome, OfALaneByHand) {
+  const Truth truth = made_truth();
+  Lab lab = made_lab(made_policy());
+  const Outcome outcome = run_to_end(lab, truth);
+  const Lane& lane = lab.lanes()[0];
+  ASSERT_EQ(lane.frame(), 3u);
+  const std::vector<std::uint32_t> taken(lane.taken().begin(), lane.taken().end());
+  ASSERT_EQ(taken, (std::vector<std::uint32_t>{4, 4, 4, 8, 8, 8, 4, 4, 8, 8, 4, 8}));
+
+  // 72 samples of 12 pixels, 64 of them of the region's 10.
+  EXPECT_DOUBLE_EQ(outcome.mean_spp, 6.0);
+  EXPECT_DOUBLE_EQ(outcome.region_spp, 6.4);
+  EXPECT_EQ(outcome.seconds, lane.history().back().seconds);
+  EXPECT_NEAR(outcome.rejected, 2.0 / 72.0, 1e-12);
+  // Off by 1 from 2, five times, and by 4 from 8.
+  const double usual = 1.0 / 4.01;
+  const double most = 16.0 / 64.01;
+  EXPECT_NEAR(outcome.relmse, (5.0 * usual + most) / 12.0, 1e-6);
+  EXPECT_NEAR(outcome.worst, most, 1e-6);
+  EXPECT_EQ(outcome.fireflies, 0.0);
+  EXPECT_NEAR(outcome.energy, 15.0 / 24.0 - 1.0, 1e-6);
+  EXPECT_NEAR(outcome.region_energy, 10.0 / 15.0 - 1.0, 1e-6);
+  // Of the region.
+  EXPECT_DOUBLE_EQ(outcome.done, 0.4);
+  EXPECT_DOUBLE_EQ(outcome.missed, 0.25);
+  EXPECT_DOUBLE_EQ(outcome.never_done, 0.2);
+  EXPECT_DOUBLE_EQ(outcome.never_done_cost, 16.0 / 72.0);
+  EXPECT_EQ(outcome.audit.done, 4.0);
+  EXPECT_EQ(outcome.audit.wrong, 1.0);
+  // Two frames after the first gave two samples each to six pixels, two of which are not
+  // wrong.
+  EXPECT_DOUBLE_EQ(outcome.wasted, 1.0 / 3.0);
+  // Six pixels have 2 of 72 samples too few, six as many too many.
+  EXPECT_DOUBLE_EQ(outcome.off_oracle, 1.0 / 6.0);
+}
+
+TEST(Outcome, OfALaneWithAPilotCountsItsSamplesToo) {
+  const Truth truth = made_truth();
+  Lab lab = made_lab(made_policy(SampleUse::unbiased));
+  const Outcome outcome = run_to_end(lab, truth);
+  EXPECT_DOUBLE_EQ(outcome.mean_spp, 12.0);
+  EXPECT_DOUBLE_EQ(outcome.region_spp, 6.4);
+  EXPECT_DOUBLE_EQ(outcome.never_done_cost, 16.0 / 144.0);
+  EXPECT_DOUBLE_EQ(outcome.wasted, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(outcome.done, 0.4);
+}
+
+TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
+  Lab lab = made_lab(made_policy());
+  for (int frame = 1; frame <= 3; ++frame) {
+    lab.run_frame();
+    const std::vector<PixelState> states = pixel_states(lab.lanes()[0]);
+    for (std::size_t i = 0; i < made_pixels; ++i) {
+      EXPECT_EQ(states[i], made[i].done ? PixelState::done
+                           : frame < 3  ? PixelState::refining
+                                        : PixelState::at_maximum)
+          << "pixel " << i << ", frame " << frame;
+    }
+  }
+  // Without an error nothing is ever done.
+  SamplingPolicy uniform = default_policy(EstimatorId::uniform);
+  uniform.max_spp = 2;
+  Lab plain = made_lab(uniform);
+  plain.run_frame();
+  EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::refining);
+  plain.run_frame();
+  EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::at_maximum);
+}
+
+TEST(Outcome, OfAPictureAlone) {
+  // 2000 pixels: the worst thousandth is two of them.
+  const RadianceImage truth(50, 40, glm::vec3(0.3f));
+  RadianceImage picture = truth;
+  const auto brighten = [&](int x, int y, float by) { picture.at(x, y) += glm::vec3(by); };
+  brighten(7, 3, 3.0f);    // 5 · (0.3 + 0.1) = 2: a firefly
+  brighten(8, 3, 2.5f);    // another one
+  brighten(20, 30, 1.5f);  // bright, and none
+  brighten(49, 39, -0.3f);
+  const Outcome outcome = outcome_of(picture, truth, {0, 0, 10, 10});
+  EXPECT_NEAR(outcome.relmse, (9.0 + 6.25 + 2.25 + 0.09) / 0.1 / 2000.0, 1e-5);
+  EXPECT_NEAR(outcome.worst, 0.5 * (9.0 + 6.25) / 0.1, 1e-3);
+  EXPECT_DOUBLE_EQ(outcome.fireflies, 2.0 / 2000.0);
+  EXPECT_NEAR(outcome.energy, (3.0 + 2.5 + 1.5 - 0.3) / 600.0, 1e-6);
+  EXPECT_NEAR(outcome.region_energy, (3.0 + 2.5) / 30.0, 1e-5);
+  for (const double unknown : {outcome.mean_spp, outcome.seconds, outcome.done, outcome.wasted}) {
+    EXPECT_TRUE(std::isnan(unknown));
+  }
+  // Against black there is no ratio.
+  const Outcome black =
+      outcome_of(RadianceImage(4, 2, glm::vec3(0.5f)), RadianceImage(4, 2), {0, 0, 4, 2});
+  EXPECT_NEAR(black.energy, 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace quartet

@@ -1,0 +1,389 @@
+#include "renderer/study/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "renderer/base/interval.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/study/calibrate.h"
+#include "renderer/view/sweep_charts.h"
+#include "tests/study/noisy_source.h"
+
+namespace quartet {
+namespace {
+
+constexpr int swept_width = 48;
+constexpr int swept_height = 32;
+
+SampleWorld noisy_world() {
+  SampleWorld world;
+  world.width = swept_width;
+  world.height = swept_height;
+  world.first_seed = 5;
+  world.reference =
+      std::make_shared<const RadianceImage>(test::noisy_truth(swept_width, swept_height));
+  world.source = [](std::uint64_t seed) -> SampleSource {
+    // Seeds are far apart in one endless row of samples.
+    return [seed, source = test::noisy_source(swept_width)](int x, int y, std::uint32_t first,
+                                                            std::span<glm::vec3> radiance) {
+      source(x, y, first + std::uint32_t(seed) * 100'000u, radiance);
+    };
+  };
+  return world;
+}
+
+SweepPlan small_plan() {
+  SweepPlan plan;
+  plan.policies = {default_policy(EstimatorId::kl), default_policy(EstimatorId::contrast)};
+  plan.thresholds = 3;
+  plan.seeds = 3;
+  plan.stop = {.frames = 6, .spp = 20.0};
+  plan.metrics = {MetricId::relmse, MetricId::mse};
+  return plan;
+}
+
+const SweepResult& small_result() {
+  static const SweepResult result = *run_sweep(noisy_world(), small_plan(), {}, {});
+  return result;
+}
+
+TEST(SweepFactors, AreGeometricWithTheDefaultAmongThem) {
+  SweepPlan plan;
+  plan.thresholds = 3;
+  EXPECT_EQ(sweep_factors(plan), (std::vector<double>{0.1, 1.0, 10.0})) << "1 is one of them";
+  plan.thresholds = 2;
+  EXPECT_EQ(sweep_factors(plan), (std::vector<double>{0.1, 1.0, 10.0})) << "1 is added";
+  plan.thresholds = 1;
+  plan.low = 1.0;
+  EXPECT_EQ(sweep_factors(plan), std::vector<double>{1.0});
+  plan.thresholds = 8;
+  plan.low = 0.25;
+  plan.high = 4.0;
+  const std::vector<double> factors = sweep_factors(plan);
+  ASSERT_EQ(factors.size(), 9u);
+  EXPECT_TRUE(std::ranges::is_sorted(factors));
+  EXPECT_NEAR(factors[1] / factors[0], factors[8] / factors[7], 1e-12);
+  plan.low = 2.0;
+  EXPECT_EQ(sweep_factors(plan).front(), 1.0) << "even outside of the range";
+}
+
+TEST(Sweep, HasEveryPolicyFactorAndSeedOnce) {
+  const SweepResult& result = small_result();
+  ASSERT_EQ(result.runs.size(), 2u * 3u * 3u);
+  ASSERT_EQ(result.uniform.size(), 3u);
+  std::size_t i = 0;
+  for (std::uint64_t seed = 5; seed < 8; ++seed) {
+    for (const SamplingPolicy& policy : small_plan().policies) {
+      for (const double factor : {0.1, 1.0, 10.0}) {
+        const SweepRun& run = result.runs[i++];
+        EXPECT_EQ(run.seed, seed);
+        EXPECT_EQ(run.factor, factor);
+        EXPECT_EQ(run.policy, scaled_thresholds(policy, factor));
+      }
+    }
+  }
+}
+
+TEST(Sweep, ARunIsThatOfALabAlone) {
+  const SweepRun& run = small_result().runs[10];
+  const SampleWorld world = noisy_world();
+  Experiment alone(world.source(run.seed), swept_width, swept_height, {}, world.reference);
+  const auto end =
+      alone.run({.policy = run.policy, .stop = small_plan().stop, .metrics = small_plan().metrics})
+          ->back();
+  EXPECT_EQ(end.record.samples, run.end.record.samples);
+  EXPECT_EQ(end.values, run.end.values);
+}
+
+TEST(Sweep, TheBaselineGoesOnToTheCostOfTheDearest) {
+  for (const std::vector<Measurement>& run : small_result().uniform) {
+    EXPECT_EQ(run.back().mean_spp, 20.0) << "the frames of the others do not end it";
+    EXPECT_EQ(run.front().record.frame, 1u);
+  }
+}
+
+TEST(Sweep, TracesLittleMoreThanItsDearestRun) {
+  const SweepResult& result = small_result();
+  std::uint64_t used = 0;
+  for (const SweepRun& run : result.runs) {
+    used += run.end.record.samples;
+  }
+  for (const std::vector<Measurement>& run : result.uniform) {
+    used += run.back().record.samples;
+  }
+  EXPECT_EQ(result.samples_used, used);
+  EXPECT_LT(result.samples_traced, used / 3);
+  EXPECT_FALSE(result.partial);
+}
+
+TEST(Sweep, ShortOfMemoryItTracesAgainWithTheSameResult) {
+  SampleWorld world = noisy_world();
+  world.lab.memory = 60'000;
+  const SweepResult result = *run_sweep(world, small_plan(), {}, {});
+  EXPECT_TRUE(result.partial);
+  EXPECT_GT(result.samples_traced, small_result().samples_traced);
+  ASSERT_EQ(result.runs.size(), small_result().runs.size());
+  for (std::size_t i = 0; i < result.runs.size(); ++i) {
+    const SweepRun& a = result.runs[i];
+    const SweepRun& b = small_result().runs[i];
+    EXPECT_EQ(a.end.values, b.end.values);
+    EXPECT_EQ(a.end.record.samples, b.end.record.samples);
+    EXPECT_EQ(a.quality.rank_correlation, b.quality.rank_correlation);
+    EXPECT_EQ(a.quality.oracle_distance, b.quality.oracle_distance);
+  }
+}
+
+TEST(Sweep, ProgressRisesAndStops) {
+  double last = -1.0;
+  run_sweep(noisy_world(), small_plan(), {}, [&](double done, std::string_view what) {
+    EXPECT_GE(done, last - 1e-9);
+    EXPECT_LE(done, 1.0 + 1e-9);
+    EXPECT_FALSE(what.empty());
+    last = done;
+  });
+  EXPECT_GT(last, 0.9);
+  std::stop_source stop;
+  EXPECT_FALSE(run_sweep(noisy_world(), small_plan(), stop.get_token(),
+                         [&](double, std::string_view) { stop.request_stop(); }));
+}
+
+TEST(SweepPoints, AreMediansOverSeedsWithTheirRange) {
+  const SweepResult& result = small_result();
+  const auto points = sweep_points(result, small_plan(), 1);
+  ASSERT_EQ(points.size(), 6u);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<double> errors;
+    for (std::size_t k = 0; k < 3; ++k) {
+      errors.push_back(result.runs[6 * k + i].end.values[1]);
+    }
+    std::ranges::sort(errors);
+    EXPECT_EQ(points[i].error_low, errors[0]);
+    EXPECT_EQ(points[i].error, errors[1]);
+    EXPECT_EQ(points[i].error_high, errors[2]);
+    EXPECT_GT(points[i].against_uniform, 0.0);
+  }
+  // Higher thresholds, fewer samples.
+  EXPECT_GT(points[0].mean_spp, points[1].mean_spp);
+  EXPECT_GE(points[1].mean_spp, points[2].mean_spp);
+}
+
+TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
+  SweepPlan plan = small_plan();
+  plan.policies = {default_policy(EstimatorId::kl)};
+  plan.thresholds = 1;
+  plan.low = 1.0;
+  plan.metrics = {MetricId::mse};
+  SweepResult result;
+  result.first_seed = 9;
+  const auto measured = [](double seconds, double error) {
+    Measurement measurement;
+    measurement.record.seconds = seconds;
+    measurement.values = {error};
+    return measurement;
+  };
+  for (const double noise : {1.0, 2.0, 4.0}) {
+    // Uniform: noise / seconds. The other: half of that, after 3 seconds.
+    result.uniform.push_back({measured(1.0, noise), measured(4.0, noise / 4.0)});
+    SweepRun run{.policy = plan.policies[0], .seed = 9 + result.runs.size()};
+    run.end = measured(3.0, 0.5 * noise / 3.0);
+    result.runs.push_back(run);
+  }
+  const auto points = sweep_points(result, plan, 0);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(points[0].against_uniform, 0.5, 1e-12);
+  EXPECT_NEAR(points[0].error, 1.0 / 3.0, 1e-12);
+}
+
+TEST(SweepPoints, OfThreeSeedsByHand) {
+  SweepPlan plan = small_plan();
+  plan.policies = {default_policy(EstimatorId::kl)};
+  plan.thresholds = 1;
+  plan.low = 1.0;
+  plan.metrics = {MetricId::mse, MetricId::rmse, MetricId::psnr};
+  SweepResult result;
+  result.first_seed = 100;
+  const auto measured = [](double seconds, double spp, double mse, double rmse, double psnr) {
+    Measurement measurement;
+    measurement.record.seconds = seconds;
+    measurement.mean_spp = spp;
+    measurement.values = {mse, rmse, psnr};
+    return measurement;
+  };
+  // Uniform sampling after 1 and 4 s; the second seed has a third measurement.
+  result.uniform = {
+      {measured(1, 10, 8, 80, 30), measured(4, 40, 2, 40, 36)},
+      {measured(1.5, 11, 6, 60, 31), measured(6, 44, 1.5, 30, 37), measured(9, 66, 1, 20, 39)},
+      {measured(3, 30, 4, 50, 33), measured(5, 50, 1.25, 25, 38)}};
+  const auto add = [&](std::uint64_t seed, const Measurement& end) {
+    SweepRun run{.policy = plan.policies[0], .seed = seed};
+    run.end = end;
+    result.runs.push_back(run);
+  };
+  add(100, measured(2, 20, 1, 100, 35));
+  add(101, measured(3, 28, 6, 15, 32));
+  add(102, measured(13, 90, 0.5, 50, 40));
+
+  const auto mse = sweep_points(result, plan, 0);
+  ASSERT_EQ(mse.size(), 1u);
+  EXPECT_EQ(mse[0].policy, plan.policies[0]);
+  EXPECT_EQ(mse[0].factor, 1.0);
+  EXPECT_EQ(mse[0].seconds, 3.0) << "the mean is 6";
+  EXPECT_EQ(mse[0].mean_spp, 28.0) << "the mean is 46";
+  EXPECT_EQ(mse[0].error, 1.0);
+  EXPECT_EQ(mse[0].error_low, 0.5);
+  EXPECT_EQ(mse[0].error_high, 6.0);
+  // Uniform sampling: 8/s, so 4 after 2 s; 9/s, so 3 after 3 s; after 13 s, beyond its last
+  // measurement, 1.25 · 5 / 13. Ratios: 1/4, 2 and 0.5 · 13 / 6.25 = 1.04.
+  EXPECT_NEAR(mse[0].against_uniform, 1.04, 1e-12);
+  const auto rmse = sweep_points(result, plan, 1);
+  EXPECT_EQ(rmse[0].error, 50.0);
+  EXPECT_EQ(rmse[0].error_low, 15.0);
+  EXPECT_EQ(rmse[0].error_high, 100.0);
+  // 80 falls to 40 as 1/√s: 80 / √2 after 2 s. 60 to 30 too: 60 / √2 after 3 s. Beyond the last, 25
+  // falls by √(5/13). Ratios: 1.77, 0.35 and 3.2.
+  EXPECT_NEAR(rmse[0].against_uniform, 100.0 / 80.0 * std::sqrt(2.0), 1e-9);
+  const auto psnr = sweep_points(result, plan, 2);
+  EXPECT_EQ(psnr[0].error, 35.0);
+  EXPECT_TRUE(std::isnan(psnr[0].against_uniform)) << "of decibels there is no ratio";
+
+  const auto uniform = uniform_points(result, 0);
+  ASSERT_EQ(uniform.size(), 2u) << "as many as the first seed has";
+  EXPECT_EQ(uniform[0].policy.estimator, EstimatorId::uniform);
+  EXPECT_EQ(uniform[0].seconds, 1.5);
+  EXPECT_EQ(uniform[0].mean_spp, 11.0);
+  EXPECT_EQ(uniform[0].error, 6.0);
+  EXPECT_EQ(uniform[0].error_low, 4.0);
+  EXPECT_EQ(uniform[0].error_high, 8.0);
+  EXPECT_EQ(uniform[0].against_uniform, 1.0);
+  EXPECT_EQ(uniform[1].seconds, 5.0);
+  EXPECT_EQ(uniform[1].mean_spp, 44.0);
+  EXPECT_EQ(uniform[1].error, 1.5);
+  EXPECT_EQ(uniform[1].error_low, 1.25);
+  EXPECT_EQ(uniform[1].error_high, 2.0);
+
+  const SweepSummary summary = summarize(result, plan, 0, 0.125);
+  EXPECT_EQ(summary.metric, MetricId::mse);
+  EXPECT_EQ(summary.seeds, 3u);
+  EXPECT_EQ(summary.noise_floor, 0.125);
+  ASSERT_EQ(summary.points.size(), 1u);
+  EXPECT_EQ(summary.points[0].seconds, 3.0);
+  ASSERT_EQ(summary.uniform.size(), 2u);
+  // By rising time: uniform after 1.5 s, kl after 3 s; uniform after 5 s is worse than that.
+  ASSERT_EQ(summary.front.size(), 2u);
+  EXPECT_EQ(summary.front[0].error, 6.0);
+  EXPECT_EQ(summary.front[1].error, 1.0);
+}
+
+TEST(Sweep, EachSeedIsUsed) {
+  const SweepResult& result = small_result();
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_NE(result.uniform[k].back().values, result.uniform[k - 1].back().values);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NE(result.runs[6 * k + i].end.values, result.runs[6 * (k - 1) + i].end.values) << i;
+    }
+  }
+  // The tracer's world gives seed k what a lab with that seed has.
+  const auto scene = std::make_shared<const TraceScene>(open_scene("synthetic:log-normal"));
+  RenderSettings settings = default_settings(scene->scene());
+  settings.seed = 3;
+  const SampleWorld world = sample_world(scene, settings, {}, nullptr);
+  EXPECT_EQ(world.first_seed, 3u);
+  const auto first_of = [](const SampleSource& source) {
+    glm::vec3 sample;
+    source(5, 7, 0, std::span(&sample, 1));
+    return sample;
+  };
+  for (const std::uint64_t seed : {3, 4}) {
+    RenderSettings own = settings;
+    own.seed = seed;
+    EXPECT_EQ(first_of(world.source(seed)), first_of(sample_source(scene, own)));
+    EXPECT_EQ(first_of(world.pilot(seed)), first_of(pilot_source(scene, own)));
+    EXPECT_NE(first_of(world.pilot(seed)), first_of(world.source(seed)));
+  }
+  EXPECT_NE(first_of(world.source(3)), first_of(world.source(4)));
+  EXPECT_NE(first_of(world.pilot(3)), first_of(world.pilot(4)));
+}
+
+SweepPoint point_at(double seconds, double error) {
+  SweepPoint point;
+  point.seconds = seconds;
+  point.error = error;
+  return point;
+}
+
+TEST(ParetoFront, HoldsWhatNothingBeatsInBoth) {
+  const std::vector<SweepPoint> points{point_at(3, 3), point_at(1, 9), point_at(2, 9.5),
+                                       point_at(4, 3), point_at(5, 1), point_at(1, 12)};
+  const auto front = pareto_front(points, false);
+  ASSERT_EQ(front.size(), 3u);
+  EXPECT_EQ(front[0].error, 9);
+  EXPECT_EQ(front[1].error, 3);
+  EXPECT_EQ(front[1].seconds, 3);
+  EXPECT_EQ(front[2].error, 1);
+  // By the definition, for every pair.
+  for (const SweepPoint& point : points) {
+    const bool beaten = std::ranges::any_of(points, [&](const SweepPoint& other) {
+      return other.seconds <= point.seconds && other.error <= point.error &&
+             (other.seconds < point.seconds || other.error < point.error);
+    });
+    const bool in_front = std::ranges::any_of(front, [&](const SweepPoint& other) {
+      return other.seconds == point.seconds && other.error == point.error;
+    });
+    EXPECT_NE(beaten, in_front);
+  }
+  EXPECT_EQ(pareto_front(points, true).size(), 1u) << "the best comes first";
+}
+
+TEST(Median, OfOddAndEvenNumbers) {
+  EXPECT_EQ(median({3, 1, 2}), 2.0);
+  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_TRUE(std::isnan(median({1, std::numeric_limits<double>::quiet_NaN(), 2})));
+}
+
+TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
+  const SweepSummary summary = summarize(small_result(), small_plan(), 0, 1e-5);
+  const std::vector<Chart> charts = sweep_charts(summary);
+  ASSERT_EQ(charts.size(), 2u);
+  for (const Chart& chart : charts) {
+    EXPECT_EQ(chart.x.spacing, Spacing::logarithmic);
+    EXPECT_NE(chart.y.label.find(metric(MetricId::relmse).label), std::string::npos);
+    for (const SamplingPolicy& policy : small_plan().policies) {
+      const auto line =
+          std::ranges::find(chart.lines, estimator(policy.estimator).label, &Line::label);
+      ASSERT_NE(line, chart.lines.end());
+      EXPECT_EQ(line->points.size(), 3u);
+      EXPECT_TRUE(line->dots);
+      for (const glm::dvec2& point : line->points) {
+        EXPECT_GE(axis_position(chart.x, point.x), 0.0);
+        EXPECT_LE(axis_position(chart.x, point.x), 1.0);
+        EXPECT_GE(axis_position(chart.y, point.y), 0.0);
+        EXPECT_LE(axis_position(chart.y, point.y), 1.0);
+      }
+    }
+    EXPECT_EQ(std::ranges::count(chart.marks, "default threshold", &PointMark::label), 2);
+    EXPECT_EQ(chart.bands.size(), 2u);
+    ASSERT_EQ(chart.levels.size(), 1u);
+    EXPECT_EQ(chart.levels[0].value, 1e-5);
+    // The baseline has slope −1 on these axes.
+    const auto baseline = std::ranges::find(chart.lines, true, &Line::dashed);
+    ASSERT_NE(baseline, chart.lines.end());
+    const glm::dvec2 a = baseline->points.front();
+    const glm::dvec2 b = baseline->points.back();
+    EXPECT_NEAR(std::log(b.y / a.y) / std::log(b.x / a.x), -1.0, 1e-9);
+  }
+}
+
+TEST(CalibrationChart, HasALineAnEstimator) {
+  const Chart chart = calibration_chart(small_result());
+  ASSERT_EQ(chart.lines.size(), 2u);
+  for (const Line& line : chart.lines) {
+    EXPECT_GT(line.points.size(), 3u);
+  }
+}
+
+}  // namespace
+}  // namespace quartet

@@ -1,0 +1,159 @@
+#include "renderer/view/error_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "tests/view/snapshot_cases.h"
+
+namespace quartet {
+namespace {
+
+using test::blank_snapshot;
+
+constexpr std::array lanes{EstimatorId::contrast, EstimatorId::kl};
+constexpr int width = 10;
+constexpr int height = 10;
+
+/// `frames` frames of so many samples a pixel and seconds each, whose error is gain / samples.
+void fill(LaneSnapshot& lane, int frames, double spp, double seconds, double gain) {
+  lane.history.clear();
+  for (int frame = 1; frame <= frames; ++frame) {
+    FrameRecord record;
+    record.frame = std::uint32_t(frame);
+    record.samples = std::uint64_t(spp * frame * width * height);
+    record.rays = 7 * record.samples;
+    record.seconds = seconds * frame;
+    record.true_error = gain / (spp * frame);
+    lane.history.push_back(record);
+  }
+}
+
+/// Uniform sampling takes 1 sample and 1 second a frame; lane 1 twice that and gains nothing; lane
+/// 2 has half the error of uniform sampling after the same seconds.
+Snapshot example() {
+  Snapshot snapshot = blank_snapshot(width, height, lanes);
+  snapshot.reference = std::make_shared<const RadianceImage>(width, height);
+  snapshot.metric = MetricId::mse;
+  snapshot.baseline = snapshot.lanes[0];
+  fill(*snapshot.baseline, 8, 1.0, 1.0, 1.0);
+  fill(snapshot.lanes[0], 8, 2.0, 2.0, 1.0);
+  fill(snapshot.lanes[1], 8, 0.5, 0.5, 0.5);
+  return snapshot;
+}
+
+ErrorCurves against(Effort effort) {
+  ErrorCurves what;
+  what.effort = effort;
+  what.colors = {Rgba8{1, 0, 0}, Rgba8{2, 0, 0}, Rgba8{3, 0, 0}, Rgba8{4, 0, 0}};
+  return what;
+}
+
+const Line& line_of(const Chart& chart, int id, bool dashed = false) {
+  static const Line none;
+  for (const Line& line : chart.lines) {
+    if (line.id == id && line.dashed == dashed) {
+      return line;
+    }
+  }
+  ADD_FAILURE() << "no line " << id;
+  return none;
+}
+
+TEST(ErrorCurves, HasALineALaneWithAPointAFrame) {
+  const Chart chart = error_curve_chart(example(), against(Effort::seconds));
+  for (int lane = 0; lane < 2; ++lane) {
+    const Line& line = line_of(chart, lane);
+    EXPECT_EQ(line.color, (Rgba8{std::uint8_t(lane + 1), 0, 0}));
+    ASSERT_EQ(line.points.size(), 8u);
+  }
+  EXPECT_EQ(line_of(chart, 0).points[2], glm::dvec2(6.0, 1.0 / 6.0));
+  const Chart by_spp = error_curve_chart(example(), against(Effort::mean_spp));
+  EXPECT_EQ(line_of(by_spp, 1).points[3], glm::dvec2(2.0, 0.25));
+  const Chart by_rays = error_curve_chart(example(), against(Effort::rays));
+  EXPECT_EQ(line_of(by_rays, 1).points[3], glm::dvec2(14.0, 0.25));
+  for (const Chart* each : {&chart, &by_spp, &by_rays}) {
+    EXPECT_EQ(each->x.spacing, Spacing::logarithmic);
+    EXPECT_EQ(each->y.spacing, Spacing::logarithmic);
+    for (const Line& line : each->lines) {
+      for (const glm::dvec2& point : line.points) {
+        EXPECT_GE(axis_position(each->x, point.x), 0.0);
+        EXPECT_LE(axis_position(each->x, point.x), 1.0);
+        EXPECT_GE(axis_position(each->y, point.y), 0.0);
+        EXPECT_LE(axis_position(each->y, point.y), 1.0);
+      }
+    }
+  }
+}
+
+TEST(ErrorCurves, UniformSamplingGoesOnAsItMust) {
+  const Snapshot snapshot = example();
+  const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
+  ASSERT_EQ(line_of(chart, -1).points.size(), 8u);
+  const Line& beyond = line_of(chart, -1, true);
+  ASSERT_EQ(beyond.points.size(), 2u);
+  EXPECT_EQ(beyond.points[0], glm::dvec2(8.0, 1.0 / 8.0));
+  EXPECT_DOUBLE_EQ(beyond.points[1].x, 16.0) << "as far as the lane that took longest";
+  EXPECT_DOUBLE_EQ(beyond.points[1].y, 1.0 / 16.0);
+  EXPECT_FALSE(chart.texts.empty()) << "and it says so";
+
+  Snapshot other = snapshot;
+  other.metric = MetricId::rmse;
+  const Chart rooted = error_curve_chart(other, against(Effort::seconds));
+  const Line& root = line_of(rooted, -1, true);
+  EXPECT_NEAR(root.points[1].y, 1.0 / 8.0 / std::sqrt(2.0), 1e-12);
+  other.metric = MetricId::psnr;
+  for (const Line& line : error_curve_chart(other, against(Effort::seconds)).lines) {
+    EXPECT_FALSE(line.dashed) << "decibels have no such slope";
+  }
+}
+
+TEST(ErrorCurves, TheNoiseFloorIsALevelInSight) {
+  ErrorCurves what = against(Effort::seconds);
+  what.noise_floor = 1e-5;
+  const Chart chart = error_curve_chart(example(), what);
+  ASSERT_EQ(chart.levels.size(), 1u);
+  EXPECT_EQ(chart.levels[0].value, 1e-5);
+  EXPECT_GE(axis_position(chart.y, 1e-5), 0.0);
+}
+
+TEST(ErrorCurves, WithoutErrorsItSaysSo) {
+  const Snapshot snapshot = blank_snapshot(width, height, lanes);
+  const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
+  EXPECT_TRUE(chart.lines.empty());
+  ASSERT_EQ(chart.texts.size(), 1u);
+  EXPECT_FALSE(times_uniform(snapshot, 0));
+  EXPECT_FALSE(baseline_error(snapshot, Effort::seconds, 1.0));
+}
+
+TEST(ErrorCurves, EfficiencyIsThatOfTheSameSeconds) {
+  const Snapshot snapshot = example();
+  // After 16 s uniform sampling would be at 1/16, and so is the lane.
+  EXPECT_NEAR(*times_uniform(snapshot, 0), 1.0, 1e-12);
+  // After 4 s it is at 1/4; the lane at 1/8.
+  EXPECT_NEAR(*times_uniform(snapshot, 1), 2.0, 1e-12);
+}
+
+TEST(ErrorCurves, BetweenMeasuredPointsTheBaselineIsStraightInLogarithms) {
+  const Snapshot snapshot = example();
+  for (const double seconds : {1.0, 1.5, 3.7, 8.0, 100.0}) {
+    EXPECT_NEAR(*baseline_error(snapshot, Effort::seconds, seconds), 1.0 / seconds, 1e-9);
+  }
+  EXPECT_FALSE(baseline_error(snapshot, Effort::seconds, 0.5)) << "before its first frame";
+  Snapshot other = snapshot;
+  other.metric = MetricId::psnr;
+  EXPECT_FALSE(times_uniform(other, 1)) << "a ratio of decibels means nothing";
+}
+
+TEST(ErrorCurves, ErrorsThatNoLogarithmHasAreLeftOut) {
+  Snapshot snapshot = example();
+  snapshot.lanes[0].history[1].true_error = 0.0;
+  snapshot.lanes[0].history[2].true_error = INFINITY;
+  snapshot.lanes[0].history[3].true_error = std::nan("");
+  const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
+  EXPECT_EQ(line_of(chart, 0).points.size(), 5u);
+}
+
+}  // namespace
+}  // namespace quartet

@@ -1,0 +1,195 @@
+#include "ui/paper/chart_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/paper/figure_text.h"
+
+namespace quartet {
+namespace {
+
+constexpr double kLine = 17.0;  // size of the text, in pixels of the PNG
+constexpr double chart_line_height = 1.35;
+constexpr double chart_gray = 0.35;
+constexpr double kAreaWidth = 640.0;
+constexpr double kAreaHeight = 470.0;
+constexpr double kSampleWidth = 2.4 * kLine;
+
+/// Puts charts and texts into a layout, from the top down.
+class ChartBuilder {
+ public:
+  explicit ChartBuilder(const ChartFigure& figure) : figure_(figure) {
+    const int count = std::max(1, int(figure.charts.size()));
+    columns_ = std::clamp(figure.columns, 1, count);
+    for (const Chart& chart : figure.charts) {
+      for (const Tick& tick : chart.y.ticks) {
+        tick_width_ = std::max(tick_width_, measure_.width(tick.label, tick_style()));
+      }
+    }
+    tick_width_ = std::ceil(tick_width_ + 0.6 * kLine);
+    cell_width_ = tick_width_ + kAreaWidth + kLine;
+    page_width_ = columns_ * cell_width_ + (columns_ - 1) * kGap;
+  }
+
+  ChartLayout build() {
+    y_ = kMargin;
+    add_text(figure_.title, {1.4 * kLine, true}, kMargin, page_width_, 3);
+    for (const std::string& line : figure_.lines) {
+      add_text(line, line_style(), kMargin, page_width_, 4);
+    }
+    for (std::size_t first = 0; first < figure_.charts.size(); first += std::size_t(columns_)) {
+      y_ += 1.2 * kLine;
+      add_row(first);
+    }
+    add_legend();
+    if (!figure_.footer.empty()) {
+      y_ += 0.8 * kLine;
+      add_text(figure_.footer, {0.85 * kLine, false, 0.45}, kMargin, page_width_, 6);
+    }
+    layout_.width = page_width_ + 2 * kMargin;
+    layout_.height = std::ceil(y_ + kMargin);
+    layout_.line_size = kLine;
+    return std::move(layout_);
+  }
+
+ private:
+  static constexpr double kMargin = 1.6 * kLine;
+  static constexpr double kGap = 1.6 * kLine;
+
+  static TextStyle line_style() { return {kLine, false, chart_gray}; }
+  static TextStyle tick_style() { return {0.9 * kLine, false, chart_gray}; }
+
+  void put(const std::string& text, const TextStyle& style, double x, double y) {
+    layout_.texts.push_back({text,
+                             {x, y, measure_.width(text, style), chart_line_height * style.size},
+                             y + style.size,
+                             style});
+  }
+
+  void add_text(const std::string& text, const TextStyle& style, double x, double width,
+                int max_lines) {
+    for (const std::string& line : measure_.wrap(text, style, width, max_lines)) {
+      put(line, style, x, y_);
+      y_ += chart_line_height * style.size;
+    }
+  }
+
+  void add_row(std::size_t first) {
+    const double top = y_;
+    double below = top;
+    const std::size_t end = std::min(first + std::size_t(columns_), figure_.charts.size());
+    for (std::size_t i = first; i < end; ++i) {
+      y_ = top;
+      const double x = kMargin + double(i - first) * (cell_width_ + kGap);
+      const Chart& chart = figure_.charts[i];
+      add_text(chart.title, {1.1 * kLine, true}, x, cell_width_, 2);
+      // Above its axis, where it need not be turned to be read.
+      add_text(chart.y.label, line_style(), x, cell_width_, 2);
+      below = std::max(below, y_);
+    }
+    const double area_top = std::ceil(below + 0.5 * kLine);
+    for (std::size_t i = first; i < end; ++i) {
+      const double x = kMargin + double(i - first) * (cell_width_ + kGap);
+      add_chart(figure_.charts[i],
+                {std::round(x + tick_width_), area_top, kAreaWidth, kAreaHeight});
+    }
+    y_ = area_top + kAreaHeight + 0.8 * kLine + 2 * chart_line_height * kLine;
+  }
+
+  void add_chart(const Chart& chart, const Rect& area) {
+    PlacedChart placed{&chart, area, {}, {}};
+    double taken = area.x - tick_width_;
+    const double tick_top = area.bottom() + 0.7 * kLine;
+    for (const Tick& tick : chart.x.ticks) {
+      placed.x_grid.push_back(tick);
+      const double width = measure_.width(tick.label, tick_style());
+      const double left = placed.x(tick.value) - width / 2;
+      // A number that would touch the one before is left out; its line stays.
+      if (left >= taken && left + width <= area.right() + kLine) {
+        put(tick.label, tick_style(), left, tick_top);
+        taken = left + width + 0.5 * kLine;
+      }
+    }
+    double above = area.bottom() + kLine;
+    for (const Tick& tick : chart.y.ticks) {
+      placed.y_grid.push_back(tick);
+      const double width = measure_.width(tick.label, tick_style());
+      const double top = placed.y(tick.value) - 0.5 * chart_line_height * tick_style().size;
+      if (top + chart_line_height * tick_style().size <= above) {
+        put(tick.label, tick_style(), area.x - width - 0.4 * kLine, top);
+        above = top;
+      }
+    }
+    const auto label = measure_.wrap(chart.x.label, line_style(), area.width, 1);
+    if (!label.empty()) {
+      const double width = measure_.width(label[0], line_style());
+      put(label[0], line_style(), area.x + (area.width - width) / 2,
+          tick_top + chart_line_height * kLine);
+    }
+    layout_.charts.push_back(std::move(placed));
+  }
+
+  /// In columns as wide as the widest entry, in rows from the top left.
+  void add_legend() {
+    const auto entries = legend_of(figure_);
+    if (entries.empty()) {
+      return;
+    }
+    y_ += 0.8 * kLine;
+    double widest = 0.0;
+    for (const auto& [label, sample] : entries) {
+      widest = std::max(widest, measure_.width(clean_text(label), line_style()));
+    }
+    const double lead = kSampleWidth + 0.6 * kLine;
+    const double column = std::min(lead + widest + 1.6 * kLine, page_width_);
+    const int columns = std::max(1, int(page_width_ / column));
+    const double top = y_;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const int row = int(i) / columns;
+      const double x = kMargin + double(int(i) % columns) * column;
+      const double y = top + double(row) * 1.5 * kLine;
+      layout_.legend.push_back(
+          {entries[i].second, {x, y, kSampleWidth, chart_line_height * kLine}});
+      const auto text = measure_.wrap(entries[i].first, line_style(), column - lead, 1);
+      put(text.at(0), line_style(), x + lead, y);
+      y_ = y + 1.5 * kLine;
+    }
+  }
+
+  const ChartFigure& figure_;
+  TextMeasure measure_;
+  ChartLayout layout_;
+  int columns_ = 1;
+  double tick_width_ = 0;
+  double cell_width_ = 0;
+  double page_width_ = 0;
+  double y_ = 0;  // where the next thing goes
+};
+
+}  // namespace
+
+std::vector<std::pair<std::string, LegendSample>> legend_of(const ChartFigure& figure) {
+  std::vector<std::pair<std::string, LegendSample>> entries;
+  const auto add = [&](const auto& thing) {
+    const auto known = [&](const auto& entry) { return entry.first == thing.label; };
+    if (!thing.label.empty() && std::ranges::none_of(entries, known)) {
+      entries.emplace_back(thing.label, thing);
+    }
+  };
+  // By kind, so that lines stand together whatever chart they are in.
+  for (const Chart& chart : figure.charts) {
+    std::ranges::for_each(chart.lines, add);
+  }
+  for (const Chart& chart : figure.charts) {
+    std::ranges::for_each(chart.marks, add);
+    std::ranges::for_each(chart.bands, add);
+    std::ranges::for_each(chart.levels, add);
+  }
+  return entries;
+}
+
+ChartLayout lay_out(const ChartFigure& figure) {
+  return ChartBuilder(figure).build();
+}
+
+}  // namespace quartet

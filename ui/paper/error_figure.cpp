@@ -1,0 +1,65 @@
+#include "ui/paper/error_figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "renderer/base/number_text.h"
+
+namespace quartet {
+namespace {
+
+/// The value that a share of all numbers is at or below.
+float quantile(const ScalarImage& image, double share) {
+  std::vector<float> values(image.pixels().begin(), image.pixels().end());
+  const auto index = std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[std::size_t(index)];
+}
+
+/// Where errors span decades, a linear scale would show a few fireflies in the dark.
+ColorScale scale_of(const ScalarImage& map, float highest) {
+  constexpr float decades = 1e4f;
+  constexpr float wide = 30.0f;
+  ColorScale scale;
+  scale.color_map = ColorMapId::viridis;
+  scale.max = highest > 0.0f ? double(highest) : 1.0;
+  if (highest > wide * quantile(map, 0.5)) {
+    scale.spacing = Spacing::logarithmic;
+    scale.min = scale.max / decades;
+  }
+  return scale;
+}
+
+}  // namespace
+
+Figure error_figure(const RadianceImage& test, const RadianceImage& reference, const Metric& metric,
+                    std::string title, std::string footer) {
+  const ScalarImage map = metric.map(test, reference);
+  const float highest = quantile(map, 0.999);
+  const ColorScale scale = scale_of(map, highest);
+  FigurePanel panel;
+  panel.image = DisplayImage(map.width(), map.height());
+  apply(map.pixels(), scale, panel.image.pixels());
+  panel.title = fmt::format("{} {}", metric.label, format_number(metric.compute(test, reference)));
+  if (!metric.unit.empty()) {
+    panel.title += fmt::format(" {}", metric.unit);
+  }
+  const auto above = std::ranges::count_if(map.pixels(), [&](float v) { return v > highest; });
+  if (above > 0) {
+    panel.lines.push_back(fmt::format("{} pixels above the scale, up to {}", above,
+                                      format_number(*std::ranges::max_element(map.pixels()))));
+  }
+  panel.bar = ColorBar{scale, std::string(metric.map_quantity), ""};
+  Figure figure;
+  figure.title = std::move(title);
+  figure.footer = std::move(footer);
+  figure.columns = 1;
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace quartet
