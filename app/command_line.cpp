@@ -1,6 +1,7 @@
 #include "app/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -9,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/messages.h"
@@ -44,6 +46,29 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
   return fmt::format("{} (see quartet{} --help)", text, command);
+}
+
+std::string command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.push_back(command->get_name());
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Why the first word, which is no command, is nothing else either; empty if it is, or is none.
+std::string first_word_fault(const CLI::App& app, const WindowOptions& window) {
+  if (!app.get_subcommands().empty() || window.scene.empty()) {
+    return "";
+  }
+  try {
+    lasting_scene_name(window.scene);
+    return "";
+  } catch (const std::exception&) {
+    return fmt::format(
+        "'{}' is neither a command ({}) nor a scene; scenes are Mitsuba 3 XML files and {}",
+        window.scene, command_names(app), fmt::join(builtin_scenes(), ", "));
+  }
 }
 
 /// What fits the buffer would be lost without a word after the return.
@@ -138,6 +163,9 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     check_words(argc, argv);
     app.parse(argc, argv);
+    if (const std::string fault = first_word_fault(app, window); !fault.empty()) {
+      return complain(wrong_usage, fault);
+    }
     if (app.get_subcommands().empty()) {
       run_lab_window(window, program);
     }
@@ -146,7 +174,9 @@ int run_command_line(int argc, const char* const* argv) {
     if (error.get_exit_code() == 0) {
       return print_help(app, error);
     }
-    return complain(wrong_usage, usage_message(app, error));
+    // What follows a misspelt command is not expected either, and not what is wrong.
+    const std::string fault = first_word_fault(app, window);
+    return complain(wrong_usage, fault.empty() ? usage_message(app, error) : fault);
   } catch (const ParameterError& error) {
     return complain(wrong_usage, fmt::format("-D: {}", error.what()));
   } catch (const std::invalid_argument& error) {
