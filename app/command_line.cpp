@@ -10,9 +10,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/home_folder.h"
 #include "app/messages.h"
 #include "app/number_option.h"
 #include "app/shell_words.h"
@@ -25,13 +27,27 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
-std::string joined_command_line(int argc, const char* const* argv) {
+std::string joined_command_line(const std::vector<std::string>& words) {
   std::string text = "quartet";
-  for (int i = 1; i < argc; ++i) {
+  for (const std::string& word : words) {
     text += ' ';
-    text += shell_word(argv[i]);
+    text += shell_word(word);
   }
   return text;
+}
+
+/// The word with a home folder for the ~ of --out=~/x and -o~/x, which no shell replaces there.
+std::string with_home(const std::string& word) {
+  std::size_t value = word.starts_with("--") ? word.find('=') : 1;
+  if (!word.starts_with('-') || value == std::string::npos || ++value >= word.size() ||
+      word[value] != '~') {
+    return word;
+  }
+  try {
+    return word.substr(0, value) + typed_path(word.substr(value)).string();
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("{}{}", word.substr(0, value), error.what()));
+  }
 }
 
 int complain(int code, std::string_view message) {
@@ -93,12 +109,12 @@ int print_help(const CLI::App& app, const CLI::ParseError& success) {
 
 /// Nothing of the program is empty. A word that is comes from a shell's variable that is not set,
 /// and would count as an option that is not given.
-void check_words(int argc, const char* const* argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
+void check_words(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
     if (word.empty()) {
-      throw UsageError(
-          fmt::format("the word after '{}' is empty; a variable that is not set?", argv[i - 1]));
+      throw UsageError(fmt::format("the word after '{}' is empty; a variable that is not set?",
+                                   i > 0 ? words[i - 1] : "quartet"));
     }
     if (word.starts_with("--") && word.find('=') == word.size() - 1) {
       throw UsageError(fmt::format("'{}' has no value; a variable that is not set?", word));
@@ -126,7 +142,7 @@ void check_window_options(const CLI::App& app, const WindowOptions& window) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
-  const Program program{joined_command_line(argc, argv)};
+  Program program;
   CLI::App app("Quartet: a lab bench for adaptive sampling in path tracing", "quartet");
   app.set_version_flag("--version", fmt::format("quartet {}", version()));
   app.require_subcommand(0, 1);
@@ -161,8 +177,12 @@ int run_command_line(int argc, const char* const* argv) {
   add_stability_command(app, program);
   app.parse_complete_callback([&] { check_window_options(app, window); });
   try {
-    check_words(argc, argv);
-    app.parse(argc, argv);
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    check_words(words);
+    std::ranges::transform(words, words.begin(), with_home);
+    program.command_line = joined_command_line(words);
+    std::ranges::reverse(words);  // CLI11 takes them from the end
+    app.parse(std::move(words));
     if (const std::string fault = first_word_fault(app, window); !fault.empty()) {
       return complain(wrong_usage, fault);
     }
