@@ -102,6 +102,7 @@ void run_bias(const BiasOptions& options, const Program& program) {
   const auto most =
       std::ranges::max_element(all, {}, [](const BiasRuns& runs) { return runs.rejected.count; });
   report_rejected(most->rejected, options.run, run.scene, run.settings);
+  tell_if_partial(all.front().partial, options.run);
 }
 
 }  // namespace

@@ -240,6 +240,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   files.finish([&] { write_png(files.stage(output.filename().string()), offscreen.read()); });
   tell_if_short(*driver.snapshot(), stop);
   report_rejected(*driver.snapshot(), options.run);
+  tell_if_partial(driver.partial(), options.run);
 }
 
 }  // namespace
