@@ -12,6 +12,7 @@
 #include "app/progress.h"
 #include "app/rejected_report.h"
 #include "app/run_options.h"
+#include "app/stop_report.h"
 #include "renderer/measure/interval.h"
 #include "ui/lab_figure.h"
 
@@ -99,9 +100,14 @@ void run_bias(const BiasOptions& options, const Program& program) {
   const BiasReport report{run, all, options.frames, options.confidence, program.command_line};
   files.finish([&] { write_bias_files(files, report); });
   print_table(report);
-  const auto most =
-      std::ranges::max_element(all, {}, [](const BiasRuns& runs) { return runs.rejected.count; });
-  report_rejected(most->rejected, options.run, run.scene, run.settings);
+  RejectedSamples rejected;
+  CappedPixels capped;
+  for (const BiasRuns& runs : all) {
+    keep_most(rejected, runs.rejected);
+    keep_most(capped, runs.capped);
+  }
+  report_rejected(rejected, options.run, run.scene, run.settings);
+  tell_if_capped(capped, CappedRun::most_of_many);
   tell_if_partial(all.front().partial, options.run);
 }
 

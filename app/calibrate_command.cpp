@@ -16,6 +16,7 @@
 #include "app/run_options.h"
 #include "app/shell_words.h"
 #include "app/stop_options.h"
+#include "app/stop_report.h"
 #include "renderer/measure/calibrate.h"
 
 namespace quartet {
@@ -217,6 +218,9 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   }
   report_rejected(rejected_of(experiment.lane(), run.settings.seed), options.run, run.scene,
                   run.settings);
+  for (const Calibration& each : found) {
+    tell_if_capped(each.capped);
+  }
   tell_if_partial(experiment.store().partial(), options.run);
   if (const std::string unmet = ids_of_unmet(found); !unmet.empty()) {
     throw std::runtime_error(fmt::format("{} cannot be met by {}", budget.text(), unmet));

@@ -14,6 +14,7 @@
 #include "app/rejected_report.h"
 #include "app/run_options.h"
 #include "app/stop_options.h"
+#include "app/stop_report.h"
 #include "app/sweep_files.h"
 #include "renderer/image/staged_files.h"
 #include "renderer/image/ticks.h"
@@ -220,6 +221,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   fmt::print("sweep and calibration as .csv, .png, .pdf and .svg are in {}; median of {}\n",
              options.out, seed_text(plan.seeds));
   report_rejected(result->rejected, options.run, run.scene, run.settings);
+  tell_if_capped(result->capped, CappedRun::most_of_many);
   if (options.verify_time) {
     verify_time(world, *result, interrupt.token());
   }
