@@ -11,6 +11,7 @@
 #include "app/options/usage_error.h"
 #include "app/records/bias_files.h"
 #include "app/records/rejected_report.h"
+#include "app/records/stop_report.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
 #include "renderer/base/interval.h"
@@ -100,9 +101,15 @@ void run_bias(const BiasOptions& options, const Program& program) {
   const BiasReport report{run, all, options.frames, options.confidence, program.command_line};
   files.finish([&] { write_bias_files(files, report); });
   print_table(report);
-  const auto most =
-      std::ranges::max_element(all, {}, [](const BiasRuns& runs) { return runs.rejected.count; });
-  report_rejected(most->rejected, options.run, run.scene, run.settings);
+  RejectedSamples rejected;
+  CappedPixels capped;
+  for (const BiasRuns& runs : all) {
+    keep_most(rejected, runs.rejected);
+    keep_most(capped, runs.capped);
+  }
+  report_rejected(rejected, options.run, run.scene, run.settings);
+  tell_if_capped(capped, CappedRun::most_of_many);
+  tell_if_partial(all.front().partial, options.run);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "app/options/usage_error.h"
 #include "app/records/json_text.h"
 #include "app/records/rejected_report.h"
+#include "app/records/stop_report.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/shell_words.h"
@@ -219,6 +220,9 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   }
   report_rejected(rejected_of(experiment.lane(), run.settings.seed), options.run, run.scene,
                   run.settings);
+  for (const Calibration& each : found) {
+    tell_if_capped(each.capped);
+  }
   tell_if_partial(experiment.store().partial(), options.run);
   if (const std::string unmet = ids_of_unmet(found); !unmet.empty()) {
     throw std::runtime_error(fmt::format("{} cannot be met by {}", budget.text(), unmet));

@@ -60,6 +60,7 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
   }
   fmt::print("{}", options.json ? claims_json(report) : claims_text(report));
   report_rejected(data->rejected, options.run, run.scene, run.settings);
+  tell_if_partial(data->partial, options.run);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/commands/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -9,10 +10,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/options/number_option.h"
 #include "app/options/usage_error.h"
+#include "app/terminal/home_folder.h"
 #include "app/terminal/messages.h"
 #include "app/terminal/shell_words.h"
 #include "renderer/base/version.h"
@@ -24,13 +28,27 @@ namespace {
 constexpr int failed = 1;
 constexpr int wrong_usage = 2;
 
-std::string joined_command_line(int argc, const char* const* argv) {
+std::string joined_command_line(const std::vector<std::string>& words) {
   std::string text = "quartet";
-  for (int i = 1; i < argc; ++i) {
+  for (const std::string& word : words) {
     text += ' ';
-    text += shell_word(argv[i]);
+    text += shell_word(word);
   }
   return text;
+}
+
+/// The word with a home folder for the ~ of --out=~/x and -o~/x, which no shell replaces there.
+std::string with_home(const std::string& word) {
+  std::size_t value = word.starts_with("--") ? word.find('=') : 1;
+  if (!word.starts_with('-') || value == std::string::npos || ++value >= word.size() ||
+      word[value] != '~') {
+    return word;
+  }
+  try {
+    return word.substr(0, value) + typed_path(word.substr(value)).string();
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("{}{}", word.substr(0, value), error.what()));
+  }
 }
 
 int complain(int code, std::string_view message) {
@@ -45,6 +63,29 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
   return fmt::format("{} (see quartet{} --help)", text, command);
+}
+
+std::string command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.push_back(command->get_name());
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Why the first word, which is no command, is nothing else either; empty if it is, or is none.
+std::string first_word_fault(const CLI::App& app, const WindowOptions& window) {
+  if (!app.get_subcommands().empty() || window.scene.empty()) {
+    return "";
+  }
+  try {
+    lasting_scene_name(window.scene);
+    return "";
+  } catch (const std::exception&) {
+    return fmt::format(
+        "'{}' is neither a command ({}) nor a scene; scenes are Mitsuba 3 XML files and {}",
+        window.scene, command_names(app), fmt::join(builtin_scenes(), ", "));
+  }
 }
 
 /// What fits the buffer would be lost without a word after the return.
@@ -69,12 +110,12 @@ int print_help(const CLI::App& app, const CLI::ParseError& success) {
 
 /// Nothing of the program is empty. A word that is comes from a shell's variable that is not set,
 /// and would count as an option that is not given.
-void check_words(int argc, const char* const* argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
+void check_words(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
     if (word.empty()) {
-      throw UsageError(
-          fmt::format("the word after '{}' is empty; a variable that is not set?", argv[i - 1]));
+      throw UsageError(fmt::format("the word after '{}' is empty; a variable that is not set?",
+                                   i > 0 ? words[i - 1] : "quartet"));
     }
     if (word.starts_with("--") && word.find('=') == word.size() - 1) {
       throw UsageError(fmt::format("'{}' has no value; a variable that is not set?", word));
@@ -102,7 +143,7 @@ void check_window_options(const CLI::App& app, const WindowOptions& window) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
-  const Program program{joined_command_line(argc, argv)};
+  Program program;
   CLI::App app("Quartet: a lab bench for adaptive sampling in path tracing", "quartet");
   app.set_version_flag("--version", fmt::format("quartet {}", version()));
   app.require_subcommand(0, 1);
@@ -137,8 +178,15 @@ int run_command_line(int argc, const char* const* argv) {
   add_stability_command(app, program);
   app.parse_complete_callback([&] { check_window_options(app, window); });
   try {
-    check_words(argc, argv);
-    app.parse(argc, argv);
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    check_words(words);
+    std::ranges::transform(words, words.begin(), with_home);
+    program.command_line = joined_command_line(words);
+    std::ranges::reverse(words);  // CLI11 takes them from the end
+    app.parse(std::move(words));
+    if (const std::string fault = first_word_fault(app, window); !fault.empty()) {
+      return complain(wrong_usage, fault);
+    }
     if (app.get_subcommands().empty()) {
       run_lab_window(window, program);
     }
@@ -147,7 +195,9 @@ int run_command_line(int argc, const char* const* argv) {
     if (error.get_exit_code() == 0) {
       return print_help(app, error);
     }
-    return complain(wrong_usage, usage_message(app, error));
+    // What follows a misspelt command is not expected either, and not what is wrong.
+    const std::string fault = first_word_fault(app, window);
+    return complain(wrong_usage, fault.empty() ? usage_message(app, error) : fault);
   } catch (const ParameterError& error) {
     return complain(wrong_usage, fmt::format("-D: {}", error.what()));
   } catch (const std::invalid_argument& error) {

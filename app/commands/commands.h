@@ -35,7 +35,7 @@ inline constexpr NumberRange<float> ui_scale_range{0.5f, 8.0f};
 
 /// The options of the window, which is what the program opens without a command.
 struct WindowOptions {
-  std::string scene;              ///< empty: the last one
+  std::string scene;              ///< one that can be found; empty: the last one
   std::optional<float> ui_scale;  ///< none: as last time, or as the monitor says
   bool reset_settings = false;
 };

@@ -113,12 +113,6 @@ std::string unused_folder() {
 }  // namespace
 
 void run_lab_window(const WindowOptions& options, const Program& program) {
-  if (!options.scene.empty() && !can_be_found(options.scene)) {
-    throw UsageError(
-        fmt::format("'{}' is neither a command (quartet --help lists them) nor a scene; "
-                    "scenes are Mitsuba 3 XML files and {}",
-                    options.scene, fmt::join(builtin_scenes(), ", ")));
-  }
   try {
     run_window(options);
   } catch (const NoDisplay& error) {

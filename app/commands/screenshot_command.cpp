@@ -108,8 +108,9 @@ class EndSeeker {
   std::optional<std::uint32_t> frame_;
 };
 
-/// Throws UsageError for an option that no picture that is shown depends on.
-void check_views(const ScreenshotOptions& options) {
+/// Throws UsageError for an option that no picture that is shown depends on, and for a view that
+/// would be empty.
+void check_views(const ScreenshotOptions& options, std::size_t lanes) {
   const auto shows = [&](std::initializer_list<ViewKind> kinds) {
     return std::ranges::any_of(options.views, [&](const std::string& id) {
       return std::ranges::find(kinds, find_view(id).key) != kinds.end();
@@ -121,11 +122,15 @@ void check_views(const ScreenshotOptions& options) {
     }
   };
   const bool radiance = shows({ViewKind::image, ViewKind::reference});
+  const bool truth = !options.reference.empty();
   need("--heat", !options.view.heat.empty(), shows({ViewKind::heatmap}), "--views heatmap");
   need("--tone-map", !options.view.tone_map.empty(), radiance, "--views image or reference");
   need("--exposure", options.view.exposure.has_value(), radiance, "--views image or reference");
-  need("--metric", !options.metric.empty(), !options.reference.empty(),
+  need("--metric", !options.metric.empty(), truth, "the errors against --reference");
+  need("--views reference", shows({ViewKind::reference}), truth, "what --reference names");
+  need("--views true-error", shows({ViewKind::true_error}), truth,
        "the errors against --reference");
+  need("--views difference", shows({ViewKind::difference}), lanes > 1, "two lanes or more");
 }
 
 PictureSize window_size(const ScreenshotOptions& options) {
@@ -186,9 +191,9 @@ void run_screenshot(const ScreenshotOptions& options) {
     throw UsageError(fmt::format("-o: '{}' is no .png", options.output));
   }
   const PictureSize size = window_size(options);
-  check_views(options);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
   std::vector<SamplingPolicy> policies = shown_policies(options, stop);
+  check_views(options, policies.size());
   const Run run = prepare_run(options.run, policies.size());
   LabState state = state_of(options, run, std::move(policies));
   // Throws if it is unfit.
@@ -237,6 +242,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   files.finish([&] { write_png(files.stage(output.filename().string()), offscreen.read()); });
   tell_if_short(*driver.snapshot(), stop);
   report_rejected(*driver.snapshot(), options.run);
+  tell_if_partial(driver.partial(), options.run);
 }
 
 }  // namespace

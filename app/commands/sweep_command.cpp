@@ -13,6 +13,7 @@
 #include "app/options/stop_options.h"
 #include "app/options/usage_error.h"
 #include "app/records/rejected_report.h"
+#include "app/records/stop_report.h"
 #include "app/records/sweep_files.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
@@ -222,6 +223,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   fmt::print("sweep and calibration as .csv, .png, .pdf and .svg are in {}; median of {}\n",
              options.out, seed_text(plan.seeds));
   report_rejected(result->rejected, options.run, run.scene, run.settings);
+  tell_if_capped(result->capped, CappedRun::most_of_many);
   if (options.verify_time) {
     verify_time(world, *result, interrupt.token());
   }

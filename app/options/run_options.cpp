@@ -212,8 +212,8 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
 void tell_if_partial(bool partial, const RunOptions& options) {
   if (partial) {
     tell(
-        "the samples outgrew --memory ({} GiB): the oldest were forgotten, and a replay would "
-        "trace them again",
+        "the samples outgrew --memory ({} GiB): the oldest were forgotten, and replays trace them "
+        "again",
         options.memory_gib);
   }
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -46,23 +45,29 @@ bool is_met(const StopConditions& stop, const Snapshot& snapshot, const LaneSnap
 
 }  // namespace
 
+void tell_if_capped(const CappedPixels& capped, CappedRun run) {
+  if (capped.count > 0) {
+    tell("{}{}: {} of {} pixels have the {} samples that --max-spp allows",
+         estimator(capped.estimator).id,
+         run == CappedRun::lane ? "" : ", of all runs the one with most", capped.count,
+         capped.pixels, capped.most);
+  }
+}
+
 void tell_if_short(const Snapshot& snapshot, const StopConditions& given) {
   for (const LaneSnapshot& lane : snapshot.lanes) {
-    const std::uint32_t most = lane.policy.max_spp;
-    const auto full =
-        std::ranges::count_if(lane.taken, [&](std::uint32_t samples) { return samples >= most; });
-    const std::string_view id = estimator(lane.policy.estimator).id;
+    const CappedPixels capped = capped_pixels(lane.taken, lane.policy);
     if (lane.plan.total == 0 && given.any() && !is_met(given, snapshot, lane)) {
       const FrameRecord& last = lane.history.back();
-      tell("{} ended after {} frames, at {:.2f} mean spp, before {}: {}", id, last.frame,
-           mean_spp(last, snapshot.pixels()), conditions_text(given),
-           full > 0 ? fmt::format("no pixel may have another sample; {} of {} have the {} "
-                                  "that --max-spp allows",
-                                  full, lane.taken.size(), most)
-                    : "no pixel wants another sample");
-    } else if (full > 0) {
-      tell("{}: {} of {} pixels have the {} samples that --max-spp allows", id, full,
-           lane.taken.size(), most);
+      tell("{} ended after {} frames, at {:.2f} mean spp, before {}: {}",
+           estimator(lane.policy.estimator).id, last.frame, mean_spp(last, snapshot.pixels()),
+           conditions_text(given),
+           capped.count > 0 ? fmt::format("no pixel may have another sample; {} of {} have the {} "
+                                          "that --max-spp allows",
+                                          capped.count, capped.pixels, capped.most)
+                            : "no pixel wants another sample");
+    } else {
+      tell_if_capped(capped);
     }
   }
 }

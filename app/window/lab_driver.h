@@ -56,6 +56,8 @@ class LabDriver {
   /// Why something that was asked for cannot be had; empty if all is well.
   std::string error() const;
   const std::shared_ptr<const Snapshot>& snapshot() const { return snapshot_; }
+  /// Whether samples were forgotten for want of memory.
+  bool partial() const { return session_.status().partial; }
   /// A rejected sample of the pixel that is read out, if there is one and it was found.
   std::optional<RejectedSample> rejected() const;
 

@@ -155,6 +155,8 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
       runs[i].seconds.push_back(last.seconds);
       runs[i].energy.push_back(mean_luminance(shown) / mean_luminance(other) - 1.0);
       keep_most(runs[i].rejected, rejected_of(lane, own.seed));
+      keep_most(runs[i].capped, capped_pixels(lane));
+      runs[i].partial |= lab.partial();
       sums[i].add(shown, other);
     }
     progress(double(k + 1) / double(seeds));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/measure/capped.h"
 #include "renderer/measure/rejected.h"
 
 namespace quartet {
@@ -24,7 +25,9 @@ struct BiasRuns {
   ScalarImage difference;         ///< luminance of mean less that of uniform
   ScalarImage standard_error;     ///< of `difference`, from its spread over the seeds
   RejectedSamples rejected;       ///< of the seed that met most
-  double noise = 0.0;  ///< variance of a picture over the seeds, mean over pixels and channels
+  CappedPixels capped;            ///< of the seed that has most
+  double noise = 0.0;    ///< variance of a picture over the seeds, mean over pixels and channels
+  bool partial = false;  ///< memory was short with one of the seeds: samples were forgotten
 };
 
 /// What it takes in seconds to bring the noise of mode unbiased down to that of reuse, over what

@@ -95,6 +95,7 @@ class Search {
       best_.policy = policy;
       best_.factor = factor;
       best_.result = result;
+      best_.capped = capped_pixels(experiment_.lane());
     }
   }
 

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 
+#include "renderer/measure/capped.h"
 #include "renderer/study/experiment.h"
 
 namespace quartet {
@@ -31,7 +32,8 @@ struct Calibration {
   bool met = false;       ///< within a hundredth
   /// Where it was not met: why, and what the nearest is, in one line.
   std::string reason;
-  int runs = 0;  ///< that it took
+  int runs = 0;         ///< that it took
+  CappedPixels capped;  ///< of the run that `result` is of
 };
 
 /// Finds, by bisection over replays, the factor on all thresholds of a policy with which a run of

@@ -202,6 +202,7 @@ class ClaimLab {
   }
 
   const Lane& lane() const { return lab_.lanes().front(); }
+  bool partial() const { return lab_.partial(); }
 
  private:
   double error(MetricId id) const {
@@ -245,6 +246,7 @@ std::optional<ClaimData> measure_claims(
     if (!lab.run_uniform(measured)) {
       return std::nullopt;
     }
+    data.partial |= lab.partial();
     // The first criterion is contrast, the others are the divergences.
     measured.lowest_correlation =
         std::min({correlation(maps[1], maps[2]), correlation(maps[1], maps[3]),

@@ -51,6 +51,7 @@ struct ClaimData {
   std::vector<std::size_t> pixels;  ///< of each region
   std::vector<ClaimSeed> seeds;
   RejectedSamples rejected;  ///< of the run that met most
+  bool partial = false;      ///< memory was short: some samples were traced again
 };
 
 /// Renders the report's scene as the report did, at several seeds. Nothing if `stop` ended it.

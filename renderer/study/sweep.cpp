@@ -113,6 +113,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
       }
       run.end = measured->back();
       keep_most(result.rejected, rejected_of(experiment.lane(), seed));
+      keep_most(result.capped, capped_pixels(experiment.lane()));
       run.quality = quality_of(experiment.lane(), true_squared_error(experiment));
       run.oracle_distance = share_distance(experiment.lane().taken(), oracle);
       result.runs.push_back(std::move(run));

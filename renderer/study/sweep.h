@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/measure/capped.h"
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/quality.h"
 #include "renderer/measure/rejected.h"
@@ -70,6 +71,7 @@ struct SweepResult {
   std::uint64_t samples_used = 0;  ///< by all runs together
   bool partial = false;            ///< memory was short: some samples were traced again
   RejectedSamples rejected;        ///< of the run that met most
+  CappedPixels capped;             ///< of the run that has most
 };
 
 /// The factors of a sweep, rising, with 1, the default, among them.

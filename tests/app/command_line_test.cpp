@@ -50,7 +50,6 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(figure({"-D", "novalue"}), "write name=value");
   expect_usage_error(figure({"-D", "a=1", "-D", "a=2"}), "-D: 'a' is given twice");
   expect_usage_error({"figure", "cornell-box"}, "--out");
-  expect_usage_error({"paint"}, "'paint' is neither a command");
 
   const std::string exr = (folder.path() / "x.exr").string();
   const auto render = [&](std::vector<std::string> more) {
@@ -65,6 +64,16 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(render({"--spp", "0"}), "--spp");
   expect_usage_error({"render", "cornell-box", "-o", "picture.jpg"}, "neither .exr nor .png");
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>());
+}
+
+TEST(CommandLine, AnUnknownCommandIsToldWhichOnesThereAre) {
+  const std::string start = "'paint' is neither a command (figure, render, ";
+  expect_usage_error({"paint"}, start);
+  expect_usage_error({"paint", "cornell-box"}, start);
+  expect_usage_error({"paint", "cornell-box", "--out", "out"}, start);
+  expect_usage_error({"paint"}, "nor a scene; scenes are Mitsuba 3 XML files and cornell-box, ");
+  // The scene is known: it is the option that is not.
+  expect_usage_error({"cornell-box", "--out", "out"}, "not expected");
 }
 
 TEST(CommandLine, FailureIsOneLineAndCodeOne) {

@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 
+#include "renderer/files/exr.h"
+#include "tests/app/program.h"
 #include "tests/files/temp_folder.h"
 
 namespace quartet {
@@ -49,6 +51,29 @@ TEST(HomeFolder, OtherPathsStayAsTheyAre) {
   for (const char* path : {"figs", "/tmp/~", "./~", "a~b", "", "../~/x"}) {
     EXPECT_EQ(typed_path(path), path);
   }
+}
+
+TEST(HomeFolder, AValueInTheSameWordAsItsOptionHasItToo) {
+  const TempFolder folder;
+  const HomeIs home(folder.path().c_str());
+  const auto render = [](const std::string& output) {
+    const Result result = run({"render", "synthetic:constant", "--size", "4x4", output});
+    EXPECT_EQ(result.code, 0) << result.error;
+  };
+  render("--output=~/a.exr");
+  render("-o~/b.exr");
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"a.exr", "b.exr"}));
+  const std::string command = read_exr(folder / "a.exr").attributes.at("commandLine");
+  EXPECT_NE(command.find((folder / "a.exr").string()), std::string::npos) << command;
+  expect_usage_error({"figure", "synthetic:constant", "--out=~no-such-user/x"},
+                     "--out=~no-such-user/x: there is no user 'no-such-user'");
+}
+
+TEST(HomeFolder, AWordThatTheShellLeftIsAName) {
+  const Result result = run({"info", "~no-such-user"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.error.find("~no-such-user"), std::string::npos) << result.error;
+  EXPECT_EQ(result.error.find("there is no user"), std::string::npos) << result.error;
 }
 
 }  // namespace

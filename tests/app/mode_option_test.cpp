@@ -111,12 +111,23 @@ TEST_F(ModeOption, WrongUsageIsOneLine) {
 }
 
 TEST_F(ModeOption, AShortMemoryIsToldOnce) {
-  const Result result = run({"render", "cornell-box", "--size", "60x40", "--spp", "64", "--memory",
-                             "0.001", "-o", path("a.exr")});
-  ASSERT_EQ(result.code, 0) << result.error;
-  const std::size_t told = result.error.find("outgrew --memory");
-  ASSERT_NE(told, std::string::npos) << result.error;
-  EXPECT_EQ(result.error.find("outgrew", told + 8), std::string::npos);
+  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
+           {"render", "cornell-box", "--size", "60x40", "--spp", "64", "-o", path("a.exr")},
+           {"screenshot", "cornell-box", "--render-size", "60x40", "--frames", "64", "-o",
+            path("a.png")},
+           {"bias", "cornell-box", "--size", "60x40", "--frames", "64", "--seeds", "2",
+            "--estimators", "kl", "--out", path("bias")},
+           {"claims", "--size", "96x54", "--seeds", "1", "--reference-spp", "8"}}) {
+    SCOPED_TRACE(words.front());
+    const std::string enough = run(words).error;
+    EXPECT_EQ(enough.find("outgrew"), std::string::npos) << enough;
+    words.insert(words.end(), {"--memory", "0.001"});
+    const Result result = run(words);
+    ASSERT_EQ(result.code, 0) << result.error;
+    const std::size_t told = result.error.find("outgrew --memory");
+    ASSERT_NE(told, std::string::npos) << result.error;
+    EXPECT_EQ(result.error.find("outgrew", told + 8), std::string::npos);
+  }
 }
 
 }  // namespace

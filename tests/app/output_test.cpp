@@ -15,6 +15,7 @@
 #include "renderer/files/exr.h"
 #include "renderer/files/staged_files.h"
 #include "renderer/view/lane_exr.h"
+#include "tests/app/ball_scene.h"
 #include "tests/app/program.h"
 #include "tests/files/temp_folder.h"
 #include "tests/records/csv.h"
@@ -69,17 +70,7 @@ TEST(Output, WhatCannotBePrintedIsAFailure) {
 /// A scene of the size of a stamp, with a name of one's choice.
 std::filesystem::path small_scene(const TempFolder& folder, const std::string& name) {
   std::filesystem::path path = folder / (name + ".xml");
-  write_bytes_to(path, R"(<scene version="3.0.0">
-  <integrator type="path"><integer name="max_depth" value="2"/></integrator>
-  <sensor type="perspective">
-    <transform name="to_world"><lookat origin="0, 0, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/>
-      <rfilter type="box"/></film>
-  </sensor>
-  <shape type="sphere"><bsdf type="diffuse"/></shape>
-  <emitter type="constant"/>
-</scene>
-)");
+  write_bytes_to(path, ball_scene(8, 8));
   return path;
 }
 

@@ -161,5 +161,26 @@ TEST(PolicyOptions, WhatIsCappedIsTold) {
       "another sample\n");
 }
 
+TEST(PolicyOptions, StudiesTellOfWhatIsCapped) {
+  const TempFolder folder;
+  const std::string capped = "64 of 64 pixels have the 6 samples that --max-spp allows\n";
+  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
+           {"bias", "cornell-box", "--estimators", "kl", "--frames", "9", "--seeds", "2", "--out",
+            (folder / "bias").string()},
+           {"sweep", "cornell-box", "--estimators", "kl", "--frames", "9", "--spp", "6", "--seeds",
+            "1", "--thresholds", "1", "--reference-spp", "2", "--out", (folder / "sweep").string()},
+           {"calibrate", "cornell-box", "--estimators", "kl", "--frames", "9", "--spp", "6"}}) {
+    SCOPED_TRACE(words.front());
+    words.insert(words.end(), {"--size", "8x8"});
+    Result result = run(words);
+    EXPECT_EQ(result.error.find("--max-spp allows"), std::string::npos) << result.error;
+    words.insert(words.end(), {"--max-spp", "6"});
+    result = run(words);
+    const std::size_t told = result.error.find(capped);
+    ASSERT_NE(told, std::string::npos) << result.error;
+    EXPECT_EQ(result.error.find("--max-spp allows", told + capped.size()), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace quartet

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/app/ball_scene.h"
 #include "tests/files/temp_folder.h"
 #include "tests/ui/lab_hand.h"
 
@@ -116,19 +117,6 @@ std::map<std::string, ScreenRect> widgets_of_twin() {
   return widgets;
 }
 
-// A scene that is done in a moment, also on a machine that has other things to do.
-constexpr const char* scene = R"(<scene version="3.0.0">
-  <integrator type="path"><integer name="max_depth" value="2"/></integrator>
-  <sensor type="perspective">
-    <transform name="to_world"><lookat origin="0, 0, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><integer name="width" value="64"/><integer name="height" value="64"/>
-      <rfilter type="box"/></film>
-  </sensor>
-  <shape type="sphere"><bsdf type="diffuse"/></shape>
-  <emitter type="constant"/>
-</scene>
-)";
-
 TEST(RealWindow, ADragAndAKeyArriveAndItCloses) {
   for (const char* tool : {"Xvfb", "xdotool"}) {
     if (!have(tool)) {
@@ -136,7 +124,7 @@ TEST(RealWindow, ADragAndAKeyArriveAndItCloses) {
     }
   }
   const TempFolder folder;
-  std::ofstream(folder / "ball.xml") << scene;
+  write_bytes_to(folder / "ball.xml", ball_scene(64, 64));
   std::filesystem::create_directories(folder / "config/quartet");
   std::ofstream(folder / "config/quartet/settings.json")
       << "{\"width\": 4000, \"height\": 3000}";  // larger than the screen, which it then fills
