@@ -65,6 +65,7 @@ void run_figure(const FigureOptions& options, const Program& program) {
   const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run.policy, stop);
   const ViewSettings view = view_settings(options.view);
   Run run = prepare_run(options.run, policies.size());
+  check_rays(stop, run.scene->scene());
   check_sizes(run.settings, policies.size(), view);
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(policies, reference);

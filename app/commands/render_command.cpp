@@ -96,6 +96,7 @@ void run_render(const RenderOptions& options, const Program& program) {
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
   const SamplingPolicy policy = render_policy(options, stop);
   Run run = prepare_run(options.run, 1);
+  check_rays(stop, run.scene->scene());
   check_render_output(options, run.settings);
   const auto reference = reference_at(options.reference, run);
   run.lab.reference = truth_for(std::span(&policy, 1), reference);

@@ -195,6 +195,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   std::vector<SamplingPolicy> policies = shown_policies(options, stop);
   check_views(options, policies.size());
   const Run run = prepare_run(options.run, policies.size());
+  check_rays(stop, run.scene->scene());
   LabState state = state_of(options, run, std::move(policies));
   // Throws if it is unfit.
   truth_for(state.request.lanes.policies, reference_at(options.reference, run));

@@ -192,6 +192,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   const SweepPlan plan = sweep_plan(options);
   check_seeds(options.run, plan.seeds);
   Run run = prepare_run(options.run, 1);
+  check_rays(plan.stop, run.scene->scene());
   // Variances would cost every run memory and time, and no estimator that does not ask for them.
   run.lab.statistics = {};
   StagedFiles files(options.out, sweep_file_names());

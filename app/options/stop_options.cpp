@@ -4,6 +4,7 @@
 
 #include "app/options/number_option.h"
 #include "app/options/usage_error.h"
+#include "renderer/scene/synthetic.h"
 
 namespace quartet {
 
@@ -36,6 +37,14 @@ StopConditions stop_conditions(const StopOptions& options, bool has_reference) {
     }
   }
   return stop;
+}
+
+void check_rays(const StopConditions& stop, const Scene& scene) {
+  if (stop.rays && synthetic_of(scene) != nullptr) {
+    throw UsageError(fmt::format(
+        "--rays has no effect: the samples of {} are drawn, not traced; --spp counts them",
+        scene.name));
+  }
 }
 
 StopConditions or_frames(StopConditions stop) {

@@ -6,6 +6,7 @@
 #include "app/options/number_option.h"
 #include "renderer/adaptive/policy.h"
 #include "renderer/measure/stop_conditions.h"
+#include "renderer/scene/scene.h"
 
 namespace quartet {
 
@@ -27,6 +28,10 @@ void add_stop_options(CLI::App& command, StopOptions& options);
 /// As the options say: the first condition met ends a lane. Throws UsageError for an error target
 /// that is none, or one without anything to compare with.
 StopConditions stop_conditions(const StopOptions& options, bool has_reference);
+
+/// Throws UsageError if the condition of rays could never hold, because the scene's samples are
+/// drawn and not traced.
+void check_rays(const StopConditions& stop, const Scene& scene);
 
 /// Without any condition, the 15 frames of the 2021 report.
 StopConditions or_frames(StopConditions stop);

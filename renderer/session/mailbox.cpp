@@ -6,7 +6,7 @@
 namespace quartet {
 
 std::uint64_t Mailbox::submit(LabRequest request) {
-  StoreRequest store = request.store;
+  std::optional<StoreRequest> store = request.store;
   return requests_.put(std::move(request), [&] {
     const Waiting kind = store == newest_store_ ? Waiting::other_lanes : Waiting::other_store;
     std::swap(newest_store_, store);

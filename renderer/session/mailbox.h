@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "renderer/base/latest.h"
 #include "renderer/base/request_slot.h"
@@ -45,7 +46,7 @@ class Mailbox {
 
  private:
   RequestSlot<LabRequest> requests_;
-  StoreRequest newest_store_;  // under the lock of the requests
+  std::optional<StoreRequest> newest_store_;  // under the lock of the requests
   std::atomic<Waiting> waiting_ = Waiting::nothing;
   std::atomic<bool> working_ = false;
   Latest<Snapshot> snapshot_;

@@ -98,7 +98,14 @@ Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
   if (chart.lines.empty()) {
     chart.x = log_axis(0.1, 10.0, std::string(effort_row(what.effort).label), 5);
     chart.y = vertical_axis(row, {1e-3, 1.0});
-    chart.texts.push_back({{0.5, 0.55}, Align::center, "no errors yet", text_color});
+    const bool no_rays = what.effort == Effort::rays && snapshot.baseline &&
+                         !snapshot.baseline->history.empty() &&
+                         snapshot.baseline->history.back().rays == 0;
+    chart.texts.push_back(
+        {{0.5, 0.55},
+         Align::center,
+         no_rays ? "samples that are drawn, not traced, take no rays" : "no errors yet",
+         text_color});
     return chart;
   }
   if (!uniform.empty() && uniform.back().x < x.high) {

@@ -174,11 +174,16 @@ SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::si
 }
 
 std::vector<Chart> sweep_charts(const SweepSummary& summary) {
-  return {
-      sweep_chart(summary, &SweepPoint::seconds, "Error against time", "as-if-alone time, seconds"),
-      sweep_chart(summary, &SweepPoint::mean_rays, "Error against rays", "mean rays per pixel"),
-      sweep_chart(summary, &SweepPoint::mean_spp, "Error against samples",
-                  "mean samples per pixel")};
+  std::vector<Chart> charts{sweep_chart(summary, &SweepPoint::seconds, "Error against time",
+                                        "as-if-alone time, seconds")};
+  // Samples that are drawn from a distribution take no rays.
+  if (summary.uniform.back().mean_rays > 0.0) {
+    charts.push_back(
+        sweep_chart(summary, &SweepPoint::mean_rays, "Error against rays", "mean rays per pixel"));
+  }
+  charts.push_back(sweep_chart(summary, &SweepPoint::mean_spp, "Error against samples",
+                               "mean samples per pixel"));
+  return charts;
 }
 
 Chart calibration_chart(const SweepResult& result) {

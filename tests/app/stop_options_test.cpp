@@ -51,6 +51,11 @@ TEST_F(StopOptions, RenderStopsAtTheFirstCondition) {
   EXPECT_EQ(frames({"--spp", "6", "--frames", "4"}), 4u);
   EXPECT_EQ(frames({"--spp", "3", "--frames", "4", "--seconds", "1000"}), 3u);
   EXPECT_EQ(frames({"--seconds", "1e-9", "--frames", "50"}), 1u);
+  // A sample takes at least the ray from the camera, and here some four more.
+  EXPECT_EQ(frames({"--rays", "1", "--frames", "50"}), 1u);
+  const std::uint64_t by_rays = frames({"--rays", "60", "--frames", "50"});
+  EXPECT_GT(by_rays, 4u);
+  EXPECT_LT(by_rays, 40u);
   // The error of each frame, as compare measures it, says where it should have stopped.
   const std::uint64_t stopped =
       frames({"--error", "relmse=0.05", "--frames", "500", "--reference", path("ref.exr")});

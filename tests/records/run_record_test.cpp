@@ -243,6 +243,7 @@ TEST(ExrAttributes, HaveEveryNumberUnderItsName) {
                             {"commandLine", "quartet render x"},
                             {"mode", "unbiased"},
                             {"seconds", "1.25"},
+                            {"rays", "52"},
                             {"samples", "10"},
                             {"pilotSamples", "5"},
                         }));

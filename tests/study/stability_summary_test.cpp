@@ -170,7 +170,7 @@ TEST(StabilitySummary, ValuesAreThoseOfTheirColumnsInModeReuse) {
     expect_interval(summary().cells[0].value(id), usual);
     expect_interval(summary().cells[1].value(id), budget);
   };
-  ASSERT_EQ(outcome_columns().size(), 15u);
+  ASSERT_EQ(outcome_columns().size(), 16u);
   expect_column("mean_spp", {300, 0.25}, {16, 4});
   expect_column("seconds", {301, 0.25}, {3, 1});
   expect_column("relmse", {302, 0.25}, {10, 6});
@@ -186,6 +186,7 @@ TEST(StabilitySummary, ValuesAreThoseOfTheirColumnsInModeReuse) {
   expect_column("off_oracle", {312, 0.25}, {112, 0.25});
   expect_column("region_spp", {313, 0.25}, {113, 0.25});
   expect_column("rejected", {314, 0.25}, {114, 0.25});
+  expect_column("mean_rays", {315, 0.25}, {115, 0.25});
 }
 
 TEST(StabilitySummary, BiasIsThatOfPictureAndRegionInEachMode) {

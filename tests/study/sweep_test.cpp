@@ -347,7 +347,7 @@ TEST(Median, OfOddAndEvenNumbers) {
 TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
   const SweepSummary summary = summarize(small_result(), small_plan(), 0, 1e-5);
   const std::vector<Chart> charts = sweep_charts(summary);
-  ASSERT_EQ(charts.size(), 2u);
+  ASSERT_EQ(charts.size(), 2u) << "no samples were traced, so that there are no rays to chart";
   for (const Chart& chart : charts) {
     EXPECT_EQ(chart.x.spacing, Spacing::logarithmic);
     EXPECT_NE(chart.y.label.find(metric(MetricId::relmse).label), std::string::npos);
@@ -374,6 +374,30 @@ TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
     const glm::dvec2 a = baseline->points.front();
     const glm::dvec2 b = baseline->points.back();
     EXPECT_NEAR(std::log(b.y / a.y) / std::log(b.x / a.x), -1.0, 1e-9);
+  }
+}
+
+TEST(SweepCharts, OfTracedSamplesHaveOneAgainstRays) {
+  SweepResult result = small_result();
+  for (SweepRun& run : result.runs) {
+    run.end.mean_rays = 7.0 * run.end.mean_spp;
+  }
+  for (std::vector<Measurement>& run : result.uniform) {
+    for (Measurement& measurement : run) {
+      measurement.mean_rays = 7.0 * measurement.mean_spp;
+    }
+  }
+  const std::vector<Chart> charts = sweep_charts(summarize(result, small_plan(), 0, 1e-5));
+  ASSERT_EQ(charts.size(), 3u);
+  ASSERT_EQ(charts[1].lines.size(), charts[2].lines.size());
+  for (std::size_t i = 0; i < charts[1].lines.size(); ++i) {
+    const Line& rays = charts[1].lines[i];
+    const Line& samples = charts[2].lines[i];
+    ASSERT_EQ(rays.points.size(), samples.points.size());
+    for (std::size_t k = 0; k < rays.points.size(); ++k) {
+      EXPECT_NEAR(rays.points[k].x / samples.points[k].x, 7.0, 1e-9);
+      EXPECT_NEAR(rays.points[k].y / samples.points[k].y, 1.0, 1e-9);
+    }
   }
 }
 
