@@ -34,8 +34,9 @@ void FrameHistory::clear() {
 
 void FrameHistory::charge(const SampleCosts& costs, bool last_only) {
   const std::size_t first = last_only && !records_.empty() ? records_.size() - 1 : 0;
+  const SampleCosts::Rates rates = costs.rates();
   for (std::size_t i = first; i < records_.size(); ++i) {
-    records_[i].tracing_seconds = costs.seconds(charges_[i].work);
+    records_[i].tracing_seconds = rates.of(charges_[i].work);
     records_[i].seconds = records_[i].tracing_seconds + charges_[i].own_seconds;
   }
 }

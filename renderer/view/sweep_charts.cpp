@@ -12,8 +12,8 @@
 namespace quartet {
 namespace {
 
-constexpr Rgba8 baseline_color{70, 70, 70};
-constexpr Rgba8 floor_color{150, 60, 60};
+constexpr Rgba8 sweep_baseline_color{70, 70, 70};
+constexpr Rgba8 sweep_floor_color{150, 60, 60};
 constexpr Rgba8 front_color{222, 214, 190};
 constexpr int ticks = 9;
 
@@ -65,11 +65,11 @@ glm::dvec2 place(const SweepPoint& point, Cost cost) {
 
 void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
   const Metric& row = metric(summary.metric);
-  Line measured{.label = "", .color = baseline_color, .points = {}};
+  Line measured{.label = "", .color = sweep_baseline_color, .points = {}};
   for (const SweepPoint& point : summary.uniform) {
     measured.points.push_back(place(point, cost));
     chart.marks.push_back(
-        {"uniform, measured", baseline_color, place(point, cost), MarkShape::dot});
+        {"uniform, measured", sweep_baseline_color, place(point, cost), MarkShape::dot});
   }
   if (row.higher_is_better) {
     measured.label = "uniform";
@@ -81,7 +81,7 @@ void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
   const glm::dvec2 last = measured.points.back();
   Line line{
       .label = fmt::format("uniform, slope {} through its last point", row.quadratic ? "−1" : "−½"),
-      .color = baseline_color,
+      .color = sweep_baseline_color,
       .points = {},
       .dashed = true};
   for (const double x : {chart.x.min, chart.x.max}) {
@@ -152,7 +152,7 @@ Chart sweep_chart(const SweepSummary& summary, Cost cost, std::string title, std
   if (summary.noise_floor > 0.0) {
     chart.levels.push_back(
         {fmt::format("noise floor of the reference, {}", format_number(summary.noise_floor)),
-         floor_color, summary.noise_floor});
+         sweep_floor_color, summary.noise_floor});
   }
   return chart;
 }

@@ -50,7 +50,7 @@ double tracing_of(const SampleStore& store, std::span<const std::uint32_t> count
     };
     work.units[SampleCosts::side * cell(i / timed_side) + cell(i % timed_side)] += counts[i];
   }
-  return store.costs().seconds(work);
+  return store.costs().rates().of(work);
 }
 
 SamplingPolicy with_use(EstimatorId id, SampleUse use) {

@@ -15,7 +15,6 @@
 namespace quartet {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double pixels_per_degree = 67.0206;
 const glm::dvec3 white(0.950428545, 1.0, 1.088900371);
 
@@ -92,11 +91,14 @@ Kernel2d normalised(Kernel2d k) {
 }
 
 Kernel2d sensitivity(double a1, double b1, double a2, double b2) {
-  const int radius = int(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * pixels_per_degree));
+  const int radius = int(std::ceil(3 * std::sqrt(0.04 / (2 * std::numbers::pi * std::numbers::pi)) *
+                                   pixels_per_degree));
   return normalised(kernel(radius, [&](double x, double y) {
     const double d2 = (x * x + y * y) / (pixels_per_degree * pixels_per_degree);
-    return a1 * std::sqrt(pi / b1) * std::exp(-pi * pi * d2 / b1) +
-           a2 * std::sqrt(pi / b2) * std::exp(-pi * pi * d2 / b2);
+    return a1 * std::sqrt(std::numbers::pi / b1) *
+               std::exp(-std::numbers::pi * std::numbers::pi * d2 / b1) +
+           a2 * std::sqrt(std::numbers::pi / b2) *
+               std::exp(-std::numbers::pi * std::numbers::pi * d2 / b2);
   }));
 }
 

@@ -173,9 +173,8 @@ TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
       return metric(MetricId::mse).compute(film.image(), truth) + 1.0 / lab.frame();
     });
   }
-  Snapshot snapshot;
-  copy_lanes(lab, snapshot);
-  LaneSnapshot& lane = snapshot.lanes[0];
+  LaneSnapshot lane;
+  copy_lane(lab.lanes()[0], lane);
   ASSERT_LE(lane.history.size(), FrameHistory::most_records);
   for (const FrameRecord& each : lane.history) {
     const double odd = each.frame % 2 == 1 ? 1.0 / (double(each.frame) * each.frame) : 0.0;

@@ -28,7 +28,7 @@ CommonBudget spp_budget(double spp) {
   return budget;
 }
 
-EqualiseStatus answer(EqualiseTask& task, const EqualiseRequest& request) {
+EqualiseStatus equalised(EqualiseTask& task, const EqualiseRequest& request) {
   const std::uint64_t number = task.submit(request);
   auto latest = task.latest();
   const bool answered = wait_until([&] {
@@ -60,7 +60,7 @@ TEST(EqualiseTaskThreads, FindsThresholdsWithWhichAllLanesTakeTheSameSamples) {
   // out at once where the thresholds pass 1.
   for (const double spp : {14.0, 12.5}) {
     const EqualiseRequest request = request_for(spp_budget(spp));
-    const EqualiseStatus status = answer(task, request);
+    const EqualiseStatus status = equalised(task, request);
     EXPECT_EQ(status.error, "");
     ASSERT_EQ(status.calibrations.size(), 4u);
     expect_equal_spp(request, status, spp);
@@ -71,7 +71,7 @@ TEST(EqualiseTaskThreads, SaysWhichLaneCannotAndWhy) {
   EqualiseTask task(equalise_work());
   // A pixel has a sample a frame, whatever the thresholds.
   const EqualiseRequest request = request_for(spp_budget(0.5 * frames));
-  const EqualiseStatus status = answer(task, request);
+  const EqualiseStatus status = equalised(task, request);
   ASSERT_EQ(status.calibrations.size(), 4u);
   EXPECT_FALSE(status.calibrations[2].met);
   EXPECT_NE(equalise_text(request, status).find("not lane 3: "), std::string::npos)
@@ -84,9 +84,9 @@ TEST(EqualiseTaskThreads, AnErrorNeedsAReference) {
   budget.frames = frames;
   budget.error = ErrorTarget{MetricId::relmse, 0.1};
   EqualiseRequest request = request_for(budget);
-  EXPECT_NE(answer(task, request).error, "");
+  EXPECT_NE(equalised(task, request).error, "");
   request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
-  const EqualiseStatus status = answer(task, request);
+  const EqualiseStatus status = equalised(task, request);
   EXPECT_EQ(status.error, "");
   EXPECT_EQ(status.calibrations.size(), 4u);
 }
@@ -97,7 +97,7 @@ TEST(EqualiseTaskThreads, IsEndedByTheNextRequest) {
     task.submit(request_for(spp_budget(10.0 + i)));
     std::this_thread::sleep_for(std::chrono::milliseconds(3 * i));
   }
-  EXPECT_TRUE(answer(task, EqualiseRequest()).calibrations.empty());
+  EXPECT_TRUE(equalised(task, EqualiseRequest()).calibrations.empty());
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::shared_ptr<const Reference> reference_of(float level) {
   return std::make_shared<const Reference>(std::move(reference));
 }
 
-Evaluation answer(EvaluationTask& task, const EvaluationInput& input) {
+Evaluation evaluated(EvaluationTask& task, const EvaluationInput& input) {
   const std::uint64_t number = task.submit(input);
   auto latest = task.latest();
   const bool answered = wait_until([&] {
@@ -41,7 +41,7 @@ TEST(EvaluationThreads, KnowsEveryMetricOfEveryLane) {
   const auto snapshot = snapshot_of_four();
   for (const float level : {0.5f, 0.25f}) {
     const auto reference = reference_of(level);
-    const Evaluation evaluation = answer(task, {snapshot, reference});
+    const Evaluation evaluation = evaluated(task, {snapshot, reference});
     EXPECT_EQ(evaluation.snapshot, snapshot);
     ASSERT_EQ(evaluation.lanes.size(), 4u);
     for (std::size_t m = 0; m < metrics().size(); ++m) {
@@ -57,7 +57,7 @@ TEST(EvaluationThreads, KnowsEveryMetricOfEveryLane) {
 
 TEST(EvaluationThreads, WithoutAReferenceItKnowsNothing) {
   EvaluationTask task(evaluation_work());
-  EXPECT_TRUE(answer(task, {}).lanes.empty());
+  EXPECT_TRUE(evaluated(task, {}).lanes.empty());
 }
 
 }  // namespace

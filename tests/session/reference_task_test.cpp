@@ -39,7 +39,7 @@ RadianceImage rendered(std::uint32_t spp) {
 }
 
 /// What the task says in the end.
-ReferenceStatus answer(ReferenceTask& task, ReferenceRequest request) {
+ReferenceStatus finished_reference(ReferenceTask& task, ReferenceRequest request) {
   const std::uint64_t number = task.submit(std::move(request));
   auto latest = task.latest();
   const bool answered = wait_until([&] {
@@ -59,8 +59,8 @@ TEST(ReferenceTaskThreads, ComputesCachesAndGoesOn) {
   const std::filesystem::path cache = folder / "cache";
   {
     ReferenceTask task(reference_work(cache, never));
-    EXPECT_FALSE(answer(task, request_for(0)).reference) << "the cache is empty";
-    const ReferenceStatus computed = answer(task, request_for(40));
+    EXPECT_FALSE(finished_reference(task, request_for(0)).reference) << "the cache is empty";
+    const ReferenceStatus computed = finished_reference(task, request_for(40));
     EXPECT_EQ(computed.error, "");
     ASSERT_TRUE(computed.reference);
     EXPECT_EQ(computed.reference->spp, 40u);
@@ -68,10 +68,10 @@ TEST(ReferenceTaskThreads, ComputesCachesAndGoesOn) {
   }
   // Another run of the program finds it, and adds to it what is missing to the bit.
   ReferenceTask task(reference_work(cache, never));
-  const ReferenceStatus found = answer(task, request_for(0));
+  const ReferenceStatus found = finished_reference(task, request_for(0));
   ASSERT_TRUE(found.reference);
   EXPECT_EQ(found.reference->image, rendered(40));
-  const ReferenceStatus more = answer(task, request_for(64));
+  const ReferenceStatus more = finished_reference(task, request_for(64));
   ASSERT_TRUE(more.reference);
   EXPECT_EQ(more.reference->image, rendered(64));
   EXPECT_EQ(
@@ -81,34 +81,34 @@ TEST(ReferenceTaskThreads, ComputesCachesAndGoesOn) {
 
 TEST(ReferenceTaskThreads, AnotherViewHasNone) {
   ReferenceTask task(reference_work({}, never));
-  ASSERT_TRUE(answer(task, request_for(32)).reference);
+  ASSERT_TRUE(finished_reference(task, request_for(32)).reference);
   ReferenceRequest seed = request_for(0);
   seed.settings.seed = 5;
   seed.settings.integrator = IntegratorId::kajiya;
-  EXPECT_TRUE(answer(task, seed).reference) << "the truth is the same";
+  EXPECT_TRUE(finished_reference(task, seed).reference) << "the truth is the same";
   ReferenceRequest size = request_for(0);
   size.settings.width = 25;
-  EXPECT_FALSE(answer(task, size).reference);
-  EXPECT_FALSE(answer(task, {}).reference);
+  EXPECT_FALSE(finished_reference(task, size).reference);
+  EXPECT_FALSE(finished_reference(task, {}).reference);
 }
 
 TEST(ReferenceTaskThreads, ARefusedFileLeavesTheReferenceOfBefore) {
   const TempFolder folder;
   ReferenceTask task(reference_work({}, never));
-  const auto before = answer(task, request_for(32)).reference;
+  const auto before = finished_reference(task, request_for(32)).reference;
   ASSERT_TRUE(before);
   ExrImage other(5, 4);
   other.add_radiance(RadianceImage(5, 4, glm::vec3(1.0f)));
   write_exr(folder / "other.exr", other);
   write_bytes_to(folder / "broken.exr", "no picture");
   for (const char* name : {"other.exr", "broken.exr", "missing.exr"}) {
-    const ReferenceStatus refused = answer(task, request_for(0, folder / name));
+    const ReferenceStatus refused = finished_reference(task, request_for(0, folder / name));
     EXPECT_NE(refused.error.find(name), std::string::npos) << refused.error;
     EXPECT_EQ(refused.reference, before);
   }
-  EXPECT_NE(answer(task, request_for(0, folder / "other.exr")).error.find("5x4"),
+  EXPECT_NE(finished_reference(task, request_for(0, folder / "other.exr")).error.find("5x4"),
             std::string::npos);
-  EXPECT_EQ(answer(task, request_for(0)).error, "");
+  EXPECT_EQ(finished_reference(task, request_for(0)).error, "");
 }
 
 TEST(ReferenceTaskThreads, AnotherProgramsPictureIsAccepted) {
@@ -117,7 +117,7 @@ TEST(ReferenceTaskThreads, AnotherProgramsPictureIsAccepted) {
   picture.add_radiance(RadianceImage(24, 16, glm::vec3(0.5f)));
   write_exr(folder / "theirs.exr", picture);
   ReferenceTask task(reference_work({}, never));
-  const ReferenceStatus loaded = answer(task, request_for(0, folder / "theirs.exr"));
+  const ReferenceStatus loaded = finished_reference(task, request_for(0, folder / "theirs.exr"));
   EXPECT_EQ(loaded.error, "");
   ASSERT_TRUE(loaded.reference);
   EXPECT_FALSE(loaded.reference->ours());
@@ -127,7 +127,7 @@ TEST(ReferenceTaskThreads, GivesWayAndEndsAsIfItHadNot) {
   // Now and then, in the middle of a pass: it is given up, and nothing of it may stay.
   std::atomic<int> looks = 0;
   ReferenceTask task(reference_work({}, [&] { return ++looks % 50 == 0; }));
-  const ReferenceStatus computed = answer(task, request_for(34));
+  const ReferenceStatus computed = finished_reference(task, request_for(34));
   ASSERT_TRUE(computed.reference);
   EXPECT_EQ(computed.reference->image, rendered(34));
   EXPECT_GT(looks, 34);
@@ -143,7 +143,7 @@ TEST(ReferenceTaskThreads, WaitsWhileSomebodyIsBusyAndStopsWhenAsked) {
   busy = false;
   ASSERT_TRUE(wait_until([&] { return task.latest()->output.reference != nullptr; }))
       << "the first ones are shown long before the end";
-  const ReferenceStatus stopped = answer(task, request_for(0));
+  const ReferenceStatus stopped = finished_reference(task, request_for(0));
   ASSERT_TRUE(stopped.reference);
   EXPECT_GE(stopped.reference->spp, 32u);
   EXPECT_LT(stopped.reference->spp, 1u << 20);
@@ -155,8 +155,9 @@ TEST(ReferenceTaskThreads, ADamagedFileOfTheCacheIsToldAndMadeAgain) {
       cached_reference_path(folder.path(), scene()->scene(), request_for(0).settings);
   write_bytes_to(file, "damaged");
   ReferenceTask task(reference_work(folder.path(), never));
-  EXPECT_NE(answer(task, request_for(0)).error.find(file.filename().string()), std::string::npos);
-  const ReferenceStatus made = answer(task, request_for(32));
+  EXPECT_NE(finished_reference(task, request_for(0)).error.find(file.filename().string()),
+            std::string::npos);
+  const ReferenceStatus made = finished_reference(task, request_for(32));
   ASSERT_TRUE(made.reference);
   EXPECT_EQ(made.reference->image, rendered(32));
   EXPECT_EQ(load_reference(file)->spp, 32u);
@@ -178,7 +179,7 @@ TEST(ReferenceTaskThreads, ACacheThatHasMoreByNowKeepsIt) {
     }
     return false;
   }));
-  const ReferenceStatus made = answer(task, request_for(32));
+  const ReferenceStatus made = finished_reference(task, request_for(32));
   ASSERT_TRUE(made.reference);
   EXPECT_EQ(made.reference->spp, 32u);
   EXPECT_EQ(made.error, "");
@@ -189,7 +190,7 @@ TEST(ReferenceTaskThreads, AFolderThatCannotBeWrittenIsNamed) {
   const TempFolder folder;
   write_bytes_to(folder / "file", "");
   ReferenceTask task(reference_work(folder / "file/cache", never));
-  const ReferenceStatus computed = answer(task, request_for(32));
+  const ReferenceStatus computed = finished_reference(task, request_for(32));
   EXPECT_NE(computed.error.find("file/cache"), std::string::npos) << computed.error;
   EXPECT_TRUE(computed.reference) << "it can be used all the same";
 }

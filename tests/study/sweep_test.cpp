@@ -133,7 +133,7 @@ TEST(Sweep, ShortOfMemoryItTracesAgainWithTheSameResult) {
     EXPECT_EQ(a.end.values, b.end.values);
     EXPECT_EQ(a.end.record.samples, b.end.record.samples);
     EXPECT_EQ(a.quality.rank_correlation, b.quality.rank_correlation);
-    EXPECT_EQ(a.quality.oracle_distance, b.quality.oracle_distance);
+    EXPECT_EQ(a.oracle_distance, b.oracle_distance);
   }
 }
 

@@ -266,8 +266,8 @@ TEST(SampleStore, SharesTheTimeOfAPassAmongTheCellsOfThePicture) {
     SampleCosts::Work right;
     left.units[0] = work_of(count, 0);
     right.units[SampleCosts::cell(1, 2)] = work_of(count, 1);
-    const double cheap = store.costs().seconds(left);
-    const double dear = store.costs().seconds(right);
+    const double cheap = store.costs().rates().of(left);
+    const double dear = store.costs().rates().of(right);
     EXPECT_NEAR(dear / cheap, 100.0, 1e-9);
     // Every second of a pass is given to some sample.
     EXPECT_NEAR((cheap + dear) / store.seconds(), 1.0, 1e-9);

@@ -14,15 +14,16 @@ namespace quartet {
 
 namespace {
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using PictureSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
 std::uint32_t over_white(std::uint8_t value, std::uint8_t alpha) {
   return static_cast<std::uint32_t>(255 + (int(value) - 255) * int(alpha) / 255);
 }
 
-Surface surface_of(const DisplayImage& image) {
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width(), image.height()),
-                  cairo_surface_destroy);
+PictureSurface surface_of(const DisplayImage& image) {
+  PictureSurface surface(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width(), image.height()),
+      cairo_surface_destroy);
   if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
     throw std::runtime_error(
         fmt::format("a picture of {}x{} is too large for a figure; at most {}x{} would be right",
@@ -43,7 +44,7 @@ Surface surface_of(const DisplayImage& image) {
 }
 
 void paint_image(cairo_t* cairo, const DisplayImage& image, const Rect& box) {
-  const Surface surface = surface_of(image);
+  const PictureSurface surface = surface_of(image);
   cairo_save(cairo);
   cairo_rectangle(cairo, box.x, box.y, box.width, box.height);
   cairo_clip(cairo);

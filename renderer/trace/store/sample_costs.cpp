@@ -16,12 +16,18 @@ void SampleCosts::add(const SampleCosts& other) {
   }
 }
 
-double SampleCosts::seconds(const Work& work) const {
-  double sum = 0.0;
+SampleCosts::Rates SampleCosts::rates() const {
+  Rates rates;
   for (std::size_t i = 0; i < seconds_.size(); ++i) {
-    if (work_.units[i] > 0) {
-      sum += double(work.units[i]) * (seconds_[i] / double(work_.units[i]));
-    }
+    rates.seconds[i] = work_.units[i] > 0 ? seconds_[i] / double(work_.units[i]) : 0.0;
+  }
+  return rates;
+}
+
+double SampleCosts::Rates::of(const Work& work) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    sum += double(work.units[i]) * seconds[i];
   }
   return sum;
 }

@@ -32,9 +32,15 @@ class SampleCosts {
   }
   void add(const SampleCosts& other);
 
-  /// Wall-clock seconds that this work takes, with the threads that traced all at work. Of a cell
-  /// without any measurement: 0.
-  double seconds(const Work& work) const;
+  /// Mean wall-clock seconds a unit of work by cell, with the threads that traced all at work; 0
+  /// where nothing was measured.
+  struct Rates {
+    std::array<double, side * side> seconds{};
+
+    /// What this work takes.
+    double of(const Work& work) const;
+  };
+  Rates rates() const;
 
   bool operator==(const SampleCosts&) const = default;
 
