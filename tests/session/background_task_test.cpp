@@ -71,22 +71,6 @@ TEST(BackgroundTaskThreads, WhatTheStopCallsMayUseTheTask) {
   ASSERT_TRUE(wait_until([&] { return task.latest()->input == last; }));
 }
 
-TEST(BackgroundTaskThreads, WhatTheStopCallsMayUseTheTask) {
-  std::atomic<bool> begun = false;
-  Task task([&](int input, const std::stop_token& stop, const Task::Publish& publish) {
-    const std::stop_callback look(stop, [&] { task.latest(); });
-    begun = true;
-    while (input == 0 && !stop.stop_requested()) {
-      std::this_thread::sleep_for(milliseconds(1));
-    }
-    publish(input);
-  });
-  task.submit(0);
-  ASSERT_TRUE(wait_until([&] { return begun.load(); }));
-  const std::uint64_t last = task.submit(1);
-  ASSERT_TRUE(wait_until([&] { return task.latest()->input == last; }));
-}
-
 TEST(BackgroundTaskThreads, EndsInTheMiddleOfWork) {
   for (int moment = 0; moment < 20; ++moment) {
     Task task([&](int, const std::stop_token& stop, const Task::Publish& publish) {
