@@ -108,29 +108,45 @@ class EndSeeker {
   std::optional<std::uint32_t> frame_;
 };
 
+/// "--views image or reference".
+std::string views_that_need(bool ViewNeeds::*setting) {
+  std::string text = "--views ";
+  const char* separator = "";
+  for (const ViewRow& row : views()) {
+    if (row.needs.*setting) {
+      text += fmt::format("{}{}", separator, row.id);
+      separator = " or ";
+    }
+  }
+  return text;
+}
+
 /// Throws UsageError for an option that no picture that is shown depends on, and for a view that
 /// would be empty.
 void check_views(const ScreenshotOptions& options, std::size_t lanes) {
-  const auto shows = [&](std::initializer_list<ViewKind> kinds) {
-    return std::ranges::any_of(options.views, [&](const std::string& id) {
-      return std::ranges::find(kinds, find_view(id).key) != kinds.end();
-    });
+  const auto shows = [&](bool ViewNeeds::*setting) {
+    return std::ranges::any_of(options.views,
+                               [&](const std::string& id) { return find_view(id).needs.*setting; });
   };
   const auto need = [](std::string_view option, bool given, bool used, std::string_view what) {
     if (given && !used) {
       throw UsageError(fmt::format("{} has no effect: it is for {}", option, what));
     }
   };
-  const bool radiance = shows({ViewKind::image, ViewKind::reference});
+  const bool radiance = shows(&ViewNeeds::tone_map);
+  const std::string of_radiance = views_that_need(&ViewNeeds::tone_map);
   const bool truth = !options.reference.empty();
-  need("--heat", !options.view.heat.empty(), shows({ViewKind::heatmap}), "--views heatmap");
-  need("--tone-map", !options.view.tone_map.empty(), radiance, "--views image or reference");
-  need("--exposure", options.view.exposure.has_value(), radiance, "--views image or reference");
+  need("--heat", !options.view.heat.empty(), shows(&ViewNeeds::heat_range),
+       views_that_need(&ViewNeeds::heat_range));
+  need("--tone-map", !options.view.tone_map.empty(), radiance, of_radiance);
+  need("--exposure", options.view.exposure.has_value(), radiance, of_radiance);
   need("--metric", !options.metric.empty(), truth, "the errors against --reference");
-  need("--views reference", shows({ViewKind::reference}), truth, "what --reference names");
-  need("--views true-error", shows({ViewKind::true_error}), truth,
-       "the errors against --reference");
-  need("--views difference", shows({ViewKind::difference}), lanes > 1, "two lanes or more");
+  for (const std::string& id : options.views) {
+    const ViewNeeds& needs = find_view(id).needs;
+    const std::string option = fmt::format("--views {}", id);
+    need(option, needs.reference, truth, "what --reference names");
+    need(option, needs.other_lane, lanes > 1, "two lanes or more");
+  }
 }
 
 PictureSize window_size(const ScreenshotOptions& options) {

@@ -11,11 +11,15 @@ namespace quartet {
 namespace {
 
 [[noreturn]] void fail(const std::string& text, const std::string& reason) {
+  std::string words;
+  for (const PolicyWord& row : policy_words()) {
+    words += fmt::format("{}{}{}{}", words.empty() ? "" : ", ", row.word,
+                         row.value.empty() ? "" : "=", row.value);
+  }
   throw UsageError(
-      fmt::format("--lane: '{}': {}; write ESTIMATOR or ESTIMATOR:THRESHOLDS with policy=P, "
-                  "mode=M, multiplier=X, max-spp=N, first=N, batch=N, "
-                  "stochastic-rounding as wanted, such as contrast:0.4,0.3,0.6,multiplier=1",
-                  text, reason));
+      fmt::format("--lane: '{}': {}; write ESTIMATOR or ESTIMATOR:THRESHOLDS with {} "
+                  "as wanted, such as contrast:0.4,0.3,0.6,multiplier=1",
+                  text, reason, words));
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -31,10 +35,10 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 /// Reads one word of a lane that is not a threshold; false if none of the table is called so.
-bool read_parameter(const std::string& text, const std::string& word, PolicyOptions& own) {
+bool read_word(const std::string& text, const std::string& word, PolicyOptions& own) {
   const std::size_t equals = word.find('=');
   const std::string name = word.substr(0, equals);
-  for (const PolicyParameter& row : policy_parameters()) {
+  for (const PolicyWord& row : policy_words()) {
     if (row.word != name) {
       continue;
     }
@@ -42,7 +46,7 @@ bool read_parameter(const std::string& text, const std::string& word, PolicyOpti
       fail(text, fmt::format("{} is there twice", name));
     }
     const bool has_value = equals != std::string::npos;
-    if (has_value != row.takes_value) {
+    if (has_value == row.value.empty()) {
       fail(text, fmt::format("{} {}", name, has_value ? "takes no value" : "needs a value"));
     }
     const std::string wrong = row.read(has_value ? word.substr(equals + 1) : "", own);
@@ -61,7 +65,7 @@ ChosenLane lane_of(const std::string& text, const PolicyOptions& options) {
   std::vector<float> thresholds;
   if (colon != std::string::npos) {
     for (const std::string& word : split(text.substr(colon + 1))) {
-      if (read_parameter(text, word, own)) {
+      if (read_word(text, word, own)) {
         continue;
       }
       if (thresholds.size() == std::size_t(row.channels)) {
@@ -131,27 +135,16 @@ std::string lane_text(const SamplingPolicy& policy) {
   for (int c = 0; c < row.channels; ++c) {
     add(fmt::format("{}", policy.thresholds[std::size_t(c)]));
   }
-  const AllocationFields read = fields_read(policy);
-  if (row.channels > 0 && policy.allocation.kind != row.default_allocation) {
-    add(fmt::format("policy={}", allocation(policy.allocation.kind).id));
-  }
-  if (policy.use != SamplingPolicy().use) {
-    add(fmt::format("mode={}", sample_use(policy.use).id));
-  }
-  if (read.multiplier) {
-    add(fmt::format("multiplier={}", policy.allocation.multiplier));
-  }
-  if (read.first && policy.allocation.first > 0) {
-    add(fmt::format("first={}", policy.allocation.first));
-  }
-  if (read.batch && policy.allocation.batch > 0) {
-    add(fmt::format("batch={}", policy.allocation.batch));
-  }
-  if (policy.max_spp != SamplingPolicy().max_spp) {
-    add(fmt::format("max-spp={}", policy.max_spp));
-  }
-  if (read.multiplier && policy.allocation.stochastic_rounding) {
-    add("stochastic-rounding");
+  // Those without a value, which are the longest, last.
+  for (const bool has_value : {true, false}) {
+    for (const PolicyWord& word : policy_words()) {
+      if (word.value.empty() == has_value || !word.read_by(policy)) {
+        continue;
+      }
+      if (const std::optional<std::string> value = word.said_of(policy)) {
+        add(has_value ? fmt::format("{}={}", word.word, *value) : word.word);
+      }
+    }
   }
   return text;
 }

@@ -4,7 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <type_traits>
+#include <utility>
 
 #include "app/options/usage_error.h"
 #include "renderer/adaptive/estimators/estimator.h"
@@ -12,113 +13,240 @@
 namespace quartet {
 namespace {
 
-constexpr NumberRange<std::uint16_t> batch_range{0, 65535};
-constexpr NumberRange<float> multiplier_range{0.0f, 1000.0f};
 constexpr NumberRange<std::uint32_t> max_spp_range{1, most_spp};
 
-/// "two-level, batch, converge": those that read a field.
-std::string policies_reading(bool AllocationFields::*field) {
+/// "two-level, batch, converge": those that read a parameter.
+std::string policies_reading(PolicyParameterId parameter) {
   std::string ids;
   for (const AllocationRow& row : allocations()) {
-    if (row.reads.*field) {
+    if (reads(row, parameter)) {
       ids += fmt::format("{}{}", ids.empty() ? "" : ", ", row.id);
     }
   }
   return ids;
 }
 
-template <bool AllocationFields::*field>
-std::string readers_of() {
-  const std::string ids = policies_reading(field);
-  const bool several = ids.find(',') != std::string::npos;
-  return fmt::format("it is for the {} {}", several ? "policies" : "policy", ids);
-}
-
-template <bool AllocationFields::*field>
-bool is_read(const SamplingPolicy& policy) {
-  return fields_read(policy).*field;
-}
-
-bool has_policy(const SamplingPolicy& policy) {
-  return estimator(policy.estimator).channels > 0;
+/// "vote, two-level, batch or converge".
+std::string any_policy() {
+  std::string ids;
+  for (const AllocationRow& row : allocations()) {
+    const bool last = &row == &allocations().back();
+    ids += fmt::format("{}{}", ids.empty() ? "" : last ? " or " : ", ", row.id);
+  }
+  return ids;
 }
 
 bool always(const SamplingPolicy&) {
   return true;
 }
 
-template <auto member>
-bool is_given(const PolicyOptions& options) {
-  return bool(options.*member);
+PolicyWord policy_word() {
+  return {.option = "--policy",
+          .word = "policy",
+          .value = "P",
+          .readers = "it is for estimators of errors",
+          .given = [](const PolicyOptions& options) { return !options.policy.empty(); },
+          .read_by =
+              [](const SamplingPolicy& policy) { return estimator(policy.estimator).channels > 0; },
+          .put =
+              [](const PolicyOptions& options, SamplingPolicy& policy) {
+                policy.allocation.kind = find_allocation(options.policy).key;
+              },
+          .read =
+              [](const std::string& value, PolicyOptions& options) {
+                options.policy = find_allocation(value).id;
+                return std::string();
+              },
+          .said_of = [](const SamplingPolicy& policy) -> std::optional<std::string> {
+            if (policy.allocation.kind == estimator(policy.estimator).default_allocation) {
+              return std::nullopt;
+            }
+            return std::string(allocation(policy.allocation.kind).id);
+          },
+          .add =
+              [](CLI::App& command, PolicyOptions& options) {
+                command.add_option(
+                    "--policy", options.policy,
+                    fmt::format("How errors become sample counts: {}; the estimator's "
+                                "own if not given",
+                                any_policy()));
+              }};
 }
 
-template <auto member>
-bool is_named(const PolicyOptions& options) {
-  return !(options.*member).empty();
+PolicyWord mode_word() {
+  return {.option = "--mode",
+          .word = "mode",
+          .value = "M",
+          .readers = "it is for all",
+          .given = [](const PolicyOptions& options) { return !options.mode.empty(); },
+          .read_by = always,
+          .put = [](const PolicyOptions& options,
+                    SamplingPolicy& policy) { policy.use = find_sample_use(options.mode).key; },
+          .read =
+              [](const std::string& value, PolicyOptions& options) {
+                options.mode = find_sample_use(value).id;
+                return std::string();
+              },
+          .said_of = [](const SamplingPolicy& policy) -> std::optional<std::string> {
+            if (policy.use == SamplingPolicy().use) {
+              return std::nullopt;
+            }
+            return std::string(sample_use(policy.use).id);
+          },
+          .add =
+              [](CLI::App& command, PolicyOptions& options) {
+                command.add_option("--mode", options.mode,
+                                   "reuse, the default: the samples that decide are the picture, "
+                                   "which is biased; unbiased: those of a pilot run decide");
+              }};
 }
 
-template <auto member, const auto& range>
-std::string read_number(const std::string& value, PolicyOptions& options) {
-  options.*member = number_in(value, range);
-  return options.*member ? "" : out_of_range(value, range);
+PolicyWord max_spp_word() {
+  return {.option = "--max-spp",
+          .word = "max-spp",
+          .value = "N",
+          .readers = "it is for all",
+          .given = [](const PolicyOptions& options) { return options.max_spp.has_value(); },
+          .read_by = always,
+          .put = [](const PolicyOptions& options,
+                    SamplingPolicy& policy) { policy.max_spp = *options.max_spp; },
+          .read =
+              [](const std::string& value, PolicyOptions& options) {
+                options.max_spp = number_in(value, max_spp_range);
+                return options.max_spp ? "" : out_of_range(value, max_spp_range);
+              },
+          .said_of = [](const SamplingPolicy& policy) -> std::optional<std::string> {
+            if (policy.max_spp == SamplingPolicy().max_spp) {
+              return std::nullopt;
+            }
+            return fmt::format("{}", policy.max_spp);
+          },
+          .add =
+              [](CLI::App& command, PolicyOptions& options) {
+                add_number(
+                    command, "--max-spp", options.max_spp, max_spp_range,
+                    fmt::format("No pixel gets more samples than this; {} if not given, or as "
+                                "many as --spp or --frames may take beyond that",
+                                SamplingPolicy().max_spp));
+              }};
 }
 
-constexpr std::array policy_table{
-    PolicyParameter{"--policy", "policy", true,
-                    [] { return std::string("it is for estimators of errors"); },
-                    is_named<&PolicyOptions::policy>, has_policy,
-                    [](const PolicyOptions& options, SamplingPolicy& policy) {
-                      policy.allocation.kind = find_allocation(options.policy).key;
-                    },
-                    [](const std::string& value, PolicyOptions& options) {
-                      options.policy = find_allocation(value).id;
-                      return std::string();
-                    }},
-    PolicyParameter{"--mode", "mode", true, [] { return std::string("it is for all"); },
-                    is_named<&PolicyOptions::mode>, always,
-                    [](const PolicyOptions& options, SamplingPolicy& policy) {
-                      policy.use = find_sample_use(options.mode).key;
-                    },
-                    [](const std::string& value, PolicyOptions& options) {
-                      options.mode = find_sample_use(value).id;
-                      return std::string();
-                    }},
-    PolicyParameter{"--first-samples", "first", true, readers_of<&AllocationFields::first>,
-                    is_given<&PolicyOptions::first_samples>, is_read<&AllocationFields::first>,
-                    [](const PolicyOptions& options, SamplingPolicy& policy) {
-                      policy.allocation.first = *options.first_samples;
-                    },
-                    read_number<&PolicyOptions::first_samples, batch_range>},
-    PolicyParameter{"--batch-samples", "batch", true, readers_of<&AllocationFields::batch>,
-                    is_given<&PolicyOptions::batch_samples>, is_read<&AllocationFields::batch>,
-                    [](const PolicyOptions& options, SamplingPolicy& policy) {
-                      policy.allocation.batch = *options.batch_samples;
-                    },
-                    read_number<&PolicyOptions::batch_samples, batch_range>},
-    PolicyParameter{"--multiplier", "multiplier", true, readers_of<&AllocationFields::multiplier>,
-                    is_given<&PolicyOptions::multiplier>, is_read<&AllocationFields::multiplier>,
-                    [](const PolicyOptions& options, SamplingPolicy& policy) {
-                      policy.allocation.multiplier = *options.multiplier;
-                    },
-                    read_number<&PolicyOptions::multiplier, multiplier_range>},
-    PolicyParameter{"--stochastic-rounding", "stochastic-rounding", false,
-                    readers_of<&AllocationFields::multiplier>,
-                    is_given<&PolicyOptions::stochastic_rounding>,
-                    is_read<&AllocationFields::multiplier>,
-                    [](const PolicyOptions&, SamplingPolicy& policy) {
-                      policy.allocation.stochastic_rounding = true;
-                    },
-                    [](const std::string&, PolicyOptions& options) {
-                      options.stochastic_rounding = true;
-                      return std::string();
-                    }},
-    PolicyParameter{"--max-spp", "max-spp", true, [] { return std::string("it is for all"); },
-                    is_given<&PolicyOptions::max_spp>, always,
-                    [](const PolicyOptions& options, SamplingPolicy& policy) {
-                      policy.max_spp = *options.max_spp;
-                    },
-                    read_number<&PolicyOptions::max_spp, max_spp_range>},
-};
+// Each kind of parameter as text, as a value in messages, and as an option.
+
+template <class Number>
+std::string read_parameter(const Number& parameter, const std::string& text, Allocation& to) {
+  auto& value = to.*parameter.member;
+  const NumberRange range{parameter.low, parameter.high};
+  const auto number = number_in(text, range);
+  value = number.value_or(value);
+  return number ? "" : out_of_range(text, range);
+}
+
+std::string read_parameter(const FlagParameter& parameter, const std::string&, Allocation& to) {
+  to.*parameter.member = true;
+  return "";
+}
+
+const char* value_of(const CountParameter&) {
+  return "N";
+}
+
+const char* value_of(const RealParameter&) {
+  return "X";
+}
+
+const char* value_of(const FlagParameter&) {
+  return "";
+}
+
+template <class Number>
+void add_parameter(CLI::App& command, const Number& parameter, const std::string& option,
+                   const std::string& help, std::function<void(Allocation)> give) {
+  using Value = std::decay_t<decltype(parameter.low)>;
+  add_number_words<Value>(command, option, {parameter.low, parameter.high}, help,
+                          [parameter, give](const std::vector<Value>& values) {
+                            Allocation given;
+                            given.*parameter.member = values.front();
+                            give(given);
+                          });
+}
+
+void add_parameter(CLI::App& command, const FlagParameter& parameter, const std::string& option,
+                   const std::string& help, std::function<void(Allocation)> give) {
+  command.add_flag_callback(
+      option,
+      [parameter, give] {
+        Allocation given;
+        given.*parameter.member = true;
+        give(given);
+      },
+      help);
+}
+
+std::string option_of(const PolicyParameter& row) {
+  std::string option = fmt::format("--{}", row.id);
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
+std::string readers_of(const PolicyParameter& row) {
+  const std::string ids = policies_reading(row.key);
+  const bool several = ids.find(',') != std::string::npos;
+  return fmt::format("it is for the {} {}", several ? "policies" : "policy", ids);
+}
+
+/// A row that lives as long as the program.
+PolicyWord parameter_word(const PolicyParameter& row) {
+  const auto visit_value = [&row](const auto& visitor) { return std::visit(visitor, row.value); };
+  return {.option = option_of(row),
+          .word = std::string(row.word),
+          .value = visit_value([](const auto& parameter) { return value_of(parameter); }),
+          .readers = readers_of(row),
+          .given = [&row](const PolicyOptions& options) { return options.given.contains(row.key); },
+          .read_by = [&row](const SamplingPolicy& policy) { return reads(policy, row.key); },
+          .put =
+              [&row](const PolicyOptions& options, SamplingPolicy& policy) {
+                copy_parameter(row, options.parameters, policy.allocation);
+              },
+          .read =
+              [&row, visit_value](const std::string& text, PolicyOptions& options) {
+                options.given.insert(row.key);
+                return visit_value([&](const auto& parameter) {
+                  return read_parameter(parameter, text, options.parameters);
+                });
+              },
+          // 0 leaves it to the policy where that is the default.
+          .said_of =
+              [visit_value](const SamplingPolicy& policy) {
+                return visit_value([&](const auto& parameter) -> std::optional<std::string> {
+                  const auto value = policy.allocation.*parameter.member;
+                  const bool usual = value == Allocation().*parameter.member;
+                  return usual && value == decltype(value)()
+                             ? std::nullopt
+                             : std::optional(fmt::format("{}", value));
+                });
+              },
+          .add =
+              [&row, visit_value](CLI::App& command, PolicyOptions& options) {
+                const auto give = [&row, &options](const Allocation& given) {
+                  options.given.insert(row.key);
+                  copy_parameter(row, given, options.parameters);
+                };
+                const std::string help = fmt::format("{}: {}", policies_reading(row.key), row.help);
+                visit_value([&](const auto& parameter) {
+                  add_parameter(command, parameter, option_of(row), help, give);
+                });
+              }};
+}
+
+std::vector<PolicyWord> all_words() {
+  std::vector<PolicyWord> words{policy_word(), mode_word()};
+  for (const PolicyParameter& row : policy_parameters()) {
+    words.push_back(parameter_word(row));
+  }
+  words.push_back(max_spp_word());
+  return words;
+}
 
 /// "kl runs under vote", "uniform estimates no error".
 std::string runs_text(const SamplingPolicy& policy) {
@@ -140,11 +268,11 @@ std::string all_runs_text(std::span<const ChosenLane> lanes) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-void check_parameter(const PolicyParameter& row, const PolicyOptions& options,
-                     std::span<const ChosenLane> lanes) {
+void check_word(const PolicyWord& row, const PolicyOptions& options,
+                std::span<const ChosenLane> lanes) {
   for (const ChosenLane& lane : lanes) {
     if (row.given(lane.own) && !row.read_by(lane.policy)) {
-      throw UsageError(fmt::format("--lane: {} has no effect: {}, and {}", row.word, row.readers(),
+      throw UsageError(fmt::format("--lane: {} has no effect: {}, and {}", row.word, row.readers,
                                    runs_text(lane.policy)));
     }
   }
@@ -157,7 +285,7 @@ void check_parameter(const PolicyParameter& row, const PolicyOptions& options,
         fmt::format("{} has no effect: {}", row.option,
                     std::ranges::any_of(lanes, reads)
                         ? fmt::format("every --lane that reads it has its own {}", row.word)
-                        : fmt::format("{}, and {}", row.readers(), all_runs_text(lanes))));
+                        : fmt::format("{}, and {}", row.readers, all_runs_text(lanes))));
   }
 }
 
@@ -168,7 +296,7 @@ double most_mean_spp(const SamplingPolicy& policy) {
 
 void check_agreement(std::span<const SamplingPolicy> policies, const StopConditions& stop) {
   for (const SamplingPolicy& policy : policies) {
-    if (fields_read(policy).first && policy.allocation.first > policy.max_spp) {
+    if (reads(policy, PolicyParameterId::first) && policy.allocation.first > policy.max_spp) {
       throw UsageError(fmt::format("--first-samples {}: more than --max-spp {} lets a pixel have",
                                    policy.allocation.first, policy.max_spp));
     }
@@ -184,41 +312,21 @@ void check_agreement(std::span<const SamplingPolicy> policies, const StopConditi
 
 }  // namespace
 
-std::span<const PolicyParameter> policy_parameters() {
-  return policy_table;
+std::span<const PolicyWord> policy_words() {
+  static const std::vector<PolicyWord> words = all_words();
+  return words;
 }
 
 void add_policy_options(CLI::App& command, PolicyOptions& options) {
-  const std::string batches = policies_reading(&AllocationFields::batch);
-  const std::string votes = policies_reading(&AllocationFields::multiplier);
-  command.add_option("--policy", options.policy,
-                     "How errors become sample counts: vote, two-level, batch or converge; the "
-                     "estimator's own if not given");
-  command.add_option("--mode", options.mode,
-                     "reuse, the default: the samples that decide are the picture, which is "
-                     "biased; unbiased: those of a pilot run decide");
-  add_number(command, "--first-samples", options.first_samples, batch_range,
-             fmt::format("{}: samples before the first look; 0: the policy's own",
-                         policies_reading(&AllocationFields::first)));
-  add_number(command, "--batch-samples", options.batch_samples, batch_range,
-             fmt::format("{}: samples from one look to the next; 0: the policy's own", batches));
-  add_number(command, "--multiplier", options.multiplier, multiplier_range,
-             fmt::format("{}: extra samples for each vote, {} if not given; 1 is the text of the "
-                         "2021 report, 0.5 its pictures",
-                         votes, Allocation().multiplier));
-  command.add_flag("--stochastic-rounding", options.stochastic_rounding,
-                   fmt::format("{}: round multiplier x votes at random instead of down", votes));
-  add_number(command, "--max-spp", options.max_spp, max_spp_range,
-             fmt::format("No pixel gets more samples than this; {} if not given, or as many as "
-                         "--spp or --frames may take beyond that",
-                         SamplingPolicy().max_spp));
+  for (const PolicyWord& row : policy_words()) {
+    row.add(command, options);
+  }
 }
 
 SamplingPolicy policy_of(const PolicyOptions& options, EstimatorId estimator,
                          const PolicyOptions& own) {
   SamplingPolicy policy = default_policy(estimator);
-  // The first row is the policy itself, which decides what of the others is read.
-  for (const PolicyParameter& row : policy_table) {
+  for (const PolicyWord& row : policy_words()) {
     const PolicyOptions& from = row.given(own) ? own : options;
     if (row.given(from) && row.read_by(policy)) {
       row.put(from, policy);
@@ -230,8 +338,8 @@ SamplingPolicy policy_of(const PolicyOptions& options, EstimatorId estimator,
 std::vector<SamplingPolicy> checked_policies(const PolicyOptions& options,
                                              std::span<const ChosenLane> lanes,
                                              const StopConditions& stop) {
-  for (const PolicyParameter& row : policy_table) {
-    check_parameter(row, options, lanes);
+  for (const PolicyWord& row : policy_words()) {
+    check_word(row, options, lanes);
   }
   const std::uint32_t usual = SamplingPolicy().max_spp;
   const bool more = stop.spp.value_or(0.0) > usual || stop.frames.value_or(0) > usual;

@@ -2,14 +2,15 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/options/number_option.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policy_parameter.h"
 #include "renderer/measure/stop_conditions.h"
 
 namespace quartet {
@@ -19,10 +20,8 @@ namespace quartet {
 struct PolicyOptions {
   std::string policy;
   std::string mode;
-  std::optional<std::uint16_t> first_samples;
-  std::optional<std::uint16_t> batch_samples;
-  std::optional<float> multiplier;
-  bool stochastic_rounding = false;
+  std::set<PolicyParameterId> given;
+  Allocation parameters;  ///< those that are given
   std::optional<std::uint32_t> max_spp;
 };
 
@@ -32,23 +31,28 @@ inline constexpr NumberRange<float> threshold_limits = above_zero<float>;
 /// Adds all of them to a command.
 void add_policy_options(CLI::App& command, PolicyOptions& options);
 
-/// One row of the table of what can be said of a policy: what it is called, and which policies read
-/// it.
-struct PolicyParameter {
-  std::string_view option;  ///< of a command
-  std::string_view word;    ///< of a --lane
-  bool takes_value;
-  /// Which policies read it, for a message: "it is for the policy vote".
-  std::string (*readers)();
-  bool (*given)(const PolicyOptions& options);
-  bool (*read_by)(const SamplingPolicy& policy);
+/// What can be said of a policy: the policy itself, its mode, the parameters of allocations, and
+/// the most samples of a pixel.
+struct PolicyWord {
+  std::string option;   ///< of a command: "--max-spp"
+  std::string word;     ///< of a --lane: "max-spp"
+  std::string value;    ///< stands for one in messages: "N"; empty if it takes none
+  std::string readers;  ///< which policies read it, for a message: "it is for the policy vote"
+  std::function<bool(const PolicyOptions& options)> given;
+  std::function<bool(const SamplingPolicy& policy)> read_by;
   /// Gives the policy what the options say of it; throws std::invalid_argument for unknown ids.
-  void (*put)(const PolicyOptions& options, SamplingPolicy& policy);
+  std::function<void(const PolicyOptions& options, SamplingPolicy& policy)> put;
   /// Reads the value of a --lane's word; returns what is wrong with it, else an empty text.
-  std::string (*read)(const std::string& value, PolicyOptions& options);
+  std::function<std::string(const std::string& value, PolicyOptions& options)> read;
+  /// The value of a policy that reads it, where a --lane has to say it; else nothing.
+  std::function<std::optional<std::string>(const SamplingPolicy& policy)> said_of;
+  /// Adds the option to a command.
+  std::function<void(CLI::App& command, PolicyOptions& options)> add;
 };
 
-std::span<const PolicyParameter> policy_parameters();
+/// In the order in which they are offered; the policy, which decides what of the others is read,
+/// is the first.
+std::span<const PolicyWord> policy_words();
 
 /// A lane before it is checked: its policy, and what of it was said for it alone.
 struct ChosenLane {

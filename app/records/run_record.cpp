@@ -14,6 +14,7 @@
 #include "app/records/json_text.h"
 #include "app/records/vector_json.h"
 #include "renderer/adaptive/effort.h"
+#include "renderer/adaptive/policy_parameter.h"
 #include "renderer/base/version.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/store/sample_store.h"
@@ -38,10 +39,10 @@ ordered_json policy_json(const SamplingPolicy& policy) {
   json["unit"] = row.unit;
   json["policy"] = allocation(policy.allocation.kind).id;
   json["mode"] = sample_use(policy.use).id;
-  json["first_samples"] = policy.allocation.first;
-  json["batch_samples"] = policy.allocation.batch;
-  json["multiplier"] = policy.allocation.multiplier;
-  json["stochastic_rounding"] = policy.allocation.stochastic_rounding;
+  for (const PolicyParameter& parameter : policy_parameters()) {
+    std::visit([&](const auto& value) { json[parameter.id] = policy.allocation.*value.member; },
+               parameter.value);
+  }
   json["max_spp"] = policy.max_spp;
   return json;
 }

@@ -11,7 +11,10 @@ namespace quartet {
 
 enum class AllocationId { vote, two_level, batch, converge };
 
-/// How errors become sample counts; which fields matter is the allocation's affair.
+/// What of an Allocation can be set, beside its kind: policy_parameter.h.
+enum class PolicyParameterId { first, batch, multiplier, stochastic_rounding };
+
+/// How errors become sample counts; which parameters matter, the row of its kind says.
 struct Allocation {
   AllocationId kind = AllocationId::vote;
   /// All but vote: samples that every pixel gets at first, and that a pixel gets at once later on;
@@ -72,21 +75,13 @@ struct Plan {
 /// Samples below which no pixel is done, whatever its error: as the estimator has it.
 std::uint32_t minimum_samples(const SamplingPolicy& policy);
 
-/// Which fields of an Allocation an allocation reads.
-struct AllocationFields {
-  bool first = false;
-  bool batch = false;
-  bool multiplier = false;  ///< and its stochastic rounding
-  bool operator==(const AllocationFields&) const = default;
-};
-
 /// One row of the table of allocations.
 struct AllocationRow {
   AllocationId key;
   std::string_view id;
   std::string_view label;
   std::string_view source;
-  AllocationFields reads;
+  std::span<const PolicyParameterId> parameters;  ///< that it reads
   void (*plan)(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
 };
 
@@ -94,10 +89,6 @@ std::span<const AllocationRow> allocations();
 const AllocationRow& allocation(AllocationId key);
 /// Throws std::invalid_argument that lists the legal ids.
 const AllocationRow& find_allocation(std::string_view id);
-
-/// What is read of a policy's allocation: nothing under an estimator without an error, which has
-/// nothing to choose by.
-AllocationFields fields_read(const SamplingPolicy& policy);
 
 /// One row of the table of what the samples that decide are used for.
 struct SampleUseRow {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace quartet {
 
 std::string format_number(double value) {
@@ -11,6 +13,23 @@ std::string format_number(double value) {
     text = fmt::format("{}e{}", text.substr(0, exponent), power);
   }
   return text;
+}
+
+std::string short_number(float value) {
+  const float size = std::abs(value);
+  if (!std::isfinite(value)) {
+    return fmt::format("{}", value);
+  }
+  if (size == 0.0f) {
+    return "0";
+  }
+  if (size < 0.001f || size >= 10000.0f) {
+    return fmt::format("{:.1e}", value);
+  }
+  return size < 1.0f     ? fmt::format("{:.{}f}", value, size < 0.01f ? 4 : 3)
+         : size < 10.0f  ? fmt::format("{:.2f}", value)
+         : size < 100.0f ? fmt::format("{:.1f}", value)
+                         : fmt::format("{:.0f}", value);
 }
 
 }  // namespace quartet

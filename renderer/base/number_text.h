@@ -7,4 +7,7 @@ namespace quartet {
 /// Four significant digits, no trailing zeros: 71, 0.005, 31.27, 2.5e7.
 std::string format_number(double value);
 
+/// In at most about six characters: 0.412, 31.3, 1.2e+04.
+std::string short_number(float value);
+
 }  // namespace quartet

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace quartet {
 
@@ -32,6 +33,19 @@ const Row& find_row(std::span<const Row> table, std::string_view id, std::string
   }
   throw std::invalid_argument(
       fmt::format("unknown {} '{}'; there are: {}", what, id, row_ids(table)));
+}
+
+/// The table of an enumeration's rows, in the order of its enumerators, which count from 0.
+/// `row_of_key` is a switch without a default, so that the compiler names an enumerator without a
+/// row, and returns null for what is none.
+template <class Row, class Key>
+std::vector<Row> table_of(const Row* (*row_of_key)(Key key)) {
+  std::vector<Row> table;
+  while (const Row* const row = row_of_key(Key(table.size()))) {
+    assert(row->key == Key(table.size()));
+    table.push_back(*row);
+  }
+  return table;
 }
 
 /// The row with this key, an enumerator.

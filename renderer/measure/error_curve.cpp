@@ -27,7 +27,7 @@ double ErrorCurve::error_at(double cost) const {
 }
 
 double slope_of(const Metric& metric) {
-  return metric.quadratic ? -1.0 : -0.5;
+  return metric.scale == MetricScale::squared_error ? -1.0 : -0.5;
 }
 
 }  // namespace quartet

@@ -33,8 +33,8 @@ class ErrorCurve {
   std::vector<Point> points_;
 };
 
-/// Beyond the points: as MetricId's errors fall with samples at random, −1 for what is quadratic,
-/// else −½.
+/// Beyond the points: as a metric's errors fall with samples at random, −1 for squared errors, else
+/// −½. Of decibels there is none that means anything.
 double slope_of(const Metric& metric);
 
 }  // namespace quartet

@@ -9,6 +9,16 @@ namespace quartet {
 
 enum class MetricId { mse, rmse, relmse, relmse_trimmed, mape, smape, psnr, flip };
 
+/// What a metric's numbers are. How they change with samples at random follows from it, and on
+/// which axis they are read.
+enum class MetricScale {
+  error,          ///< falls as 1/√samples
+  squared_error,  ///< falls as 1/samples
+  /// −10 log10 of a squared error: grows by 10 with ten times the samples. It is a logarithm
+  /// already, of which there are neither ratios nor a logarithm worth an axis.
+  decibels,
+};
+
 /// One row of the table of metrics: how far a picture is from a reference, as one number. Chart
 /// axes, command line, file columns and tests walk the table. x is the test, r the reference, both
 /// linear radiance; each mean is over all pixels and channels.
@@ -18,8 +28,8 @@ struct Metric {
   std::string_view label;       ///< for people
   std::string_view unit;        ///< empty for pure numbers
   std::string_view definition;  ///< with its constants
-  bool higher_is_better;
-  bool quadratic;  ///< falls as 1/samples: a line of slope −1 in a log–log chart
+  MetricScale scale;
+  bool higher_is_better = false;
   /// The metric. Does not depend on the number of threads; runs on those of the current TBB arena.
   /// Throws std::invalid_argument if the sizes differ, a picture is empty, or a pixel that is not
   /// finite makes the metric meaningless (with its place).
@@ -35,6 +45,10 @@ std::span<const Metric> metrics();
 const Metric& metric(MetricId key);
 /// Throws std::invalid_argument that lists the legal ids.
 const Metric& find_metric(std::string_view id);
+
+/// How many times better `value` is than `than`, both of this metric: the ratio of the errors; of
+/// decibels that of the squared errors that they stand for.
+double times_better(const Metric& row, double value, double than);
 
 /// Error that a second buys: 1/(mse · seconds). Does not depend on how long a method ran, as long
 /// as its error falls as 1/samples. Infinite where either is 0.

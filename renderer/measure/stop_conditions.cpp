@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "renderer/adaptive/effort.h"
@@ -15,14 +14,8 @@ namespace quartet {
 
 double ErrorTarget::progress(double error) const {
   const Metric& row = quartet::metric(metric);
-  if (row.higher_is_better) {
-    return std::pow(10.0, (error - value) / 10.0);  // decibels of a squared error
-  }
-  if (error <= 0.0) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double ratio = value / error;
-  return row.quadratic ? ratio : ratio * ratio;
+  const double times = times_better(row, error, value);
+  return row.scale == MetricScale::error ? times * times : times;
 }
 
 ErrorTarget parse_error_target(std::string_view text) {

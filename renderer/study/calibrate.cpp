@@ -40,11 +40,7 @@ double spending(const CommonBudget& budget, const Measurement& run) {
   if (!budget.error) {
     return budget.of(run) / (budget.spp ? *budget.spp : *budget.seconds);
   }
-  const ErrorTarget& target = *budget.error;
-  // In decibels even a hundredth of the number is much: what they stand for is compared.
-  return metric(target.metric).higher_is_better
-             ? std::pow(10.0, (run.values.front() - target.value) / 10.0)
-             : target.value / run.values.front();
+  return times_better(metric(budget.error->metric), run.values.front(), budget.error->value);
 }
 
 /// One search; keeps the nearest run that was seen.

@@ -246,7 +246,7 @@ std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan&
     set_error(point, seeds, [&](const SweepRun& run) { return run.end.values[metric]; });
     point.against_uniform = median_of(seeds, [&](const SweepRun& run) {
       const ErrorCurve& baseline = baselines[std::size_t(run.seed - result.first_seed)];
-      return quartet::metric(plan.metrics[metric]).higher_is_better
+      return quartet::metric(plan.metrics[metric]).scale == MetricScale::decibels
                  ? std::numeric_limits<double>::quiet_NaN()
                  : run.end.values[metric] / baseline.error_at(run.end.record.seconds);
     });

@@ -33,9 +33,8 @@ std::vector<glm::dvec2> curve_of(const LaneSnapshot& lane, const Snapshot& snaps
   return points;
 }
 
-/// Of decibels there is no logarithm worth an axis.
 bool is_logarithmic(const Metric& row) {
-  return !row.higher_is_better;
+  return row.scale != MetricScale::decibels;
 }
 
 struct Extent {
@@ -110,7 +109,7 @@ Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
   }
   if (!uniform.empty() && uniform.back().x < x.high) {
     if (const auto end = baseline_error(snapshot, what.effort, x.high)) {
-      const std::string how = row.quadratic ? "1/samples" : "1/√samples";
+      const std::string how = row.scale == MetricScale::squared_error ? "1/samples" : "1/√samples";
       Line beyond =
           line_of({uniform.back(), {x.high, *end}}, baseline_color, "uniform, as " + how, -1);
       beyond.dashed = true;
@@ -136,7 +135,7 @@ Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
 }
 
 std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, double at) {
-  if (!snapshot.baseline || !(at > 0.0) || metric(snapshot.metric).higher_is_better) {
+  if (!snapshot.baseline || !(at > 0.0) || !is_logarithmic(metric(snapshot.metric))) {
     return std::nullopt;
   }
   const std::vector<glm::dvec2> points = curve_of(*snapshot.baseline, snapshot, effort);

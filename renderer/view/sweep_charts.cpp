@@ -48,7 +48,7 @@ Axis error_axis(const SweepSummary& summary, const Axis& costs, Cost cost) {
     }
   }
   const Metric& row = metric(summary.metric);
-  if (row.higher_is_better) {
+  if (row.scale == MetricScale::decibels) {
     return linear_axis(range.min, range.max, error_label(row), ticks);
   }
   // A noise floor far below all errors says that it is far below, wherever it is drawn.
@@ -71,7 +71,7 @@ void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
     chart.marks.push_back(
         {"uniform, measured", sweep_baseline_color, place(point, cost), MarkShape::dot});
   }
-  if (row.higher_is_better) {
+  if (row.scale == MetricScale::decibels) {
     measured.label = "uniform";
     measured.dashed = true;
     chart.lines.push_back(std::move(measured));
@@ -79,11 +79,11 @@ void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
   }
   const double slope = slope_of(row);
   const glm::dvec2 last = measured.points.back();
-  Line line{
-      .label = fmt::format("uniform, slope {} through its last point", row.quadratic ? "−1" : "−½"),
-      .color = sweep_baseline_color,
-      .points = {},
-      .dashed = true};
+  Line line{.label = fmt::format("uniform, slope {} through its last point",
+                                 row.scale == MetricScale::squared_error ? "−1" : "−½"),
+            .color = sweep_baseline_color,
+            .points = {},
+            .dashed = true};
   for (const double x : {chart.x.min, chart.x.max}) {
     line.points.emplace_back(x, last.y * std::pow(x / last.x, slope));
   }

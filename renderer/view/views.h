@@ -55,14 +55,29 @@ enum class ViewKind {
   reference
 };
 
+/// What a view depends on beside the samples of its lane.
+struct ViewNeeds {
+  bool variance = false;    ///< of the mean, which a snapshot carries only if it was asked for
+  bool reference = false;   ///< without one there is nothing to see
+  bool other_lane = false;  ///< ViewSettings::other
+  bool tone_map = false;    ///< ViewSettings::tone_map and exposure: it shows radiance
+  bool heat_range = false;  ///< ViewSettings::heat
+};
+
 /// One row of the table of views.
 struct ViewRow {
   ViewKind key;
   std::string_view id;        ///< on the command line and in files
   std::string_view label;     ///< for people
   std::string_view quantity;  ///< what its numbers are, with their unit; empty if it has none
-  bool has_bar;               ///< a colour bar belongs to it
+  bool has_bar = false;       ///< a colour bar belongs to it
+  bool has_legend = false;    ///< colours that are not numbers, with their meanings
+  ViewNeeds needs = {};
+  /// The snapshot has what the view needs; so for `lines`.
   View (*draw)(const Snapshot& snapshot, std::size_t lane, const ViewSettings& settings);
+  /// What it says of a pixel, counted in rows from the top left: lines of a number each.
+  std::vector<std::string> (*lines)(const Snapshot& snapshot, std::size_t lane,
+                                    const ViewSettings& settings, std::size_t pixel);
 };
 
 std::span<const ViewRow> views();
@@ -74,6 +89,11 @@ const ViewRow& find_view(std::string_view id);
 /// colour is to mean the same number in each.
 View draw_view(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
                const ViewSettings& settings);
+
+/// What a view says of a pixel, counted in rows from the top left: lines of a number each; none if
+/// there is nothing to see.
+std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
+                                     const ViewSettings& settings, std::size_t pixel);
 
 /// The scale of samples per pixel of one lane.
 ColorScale heat_scale(const Snapshot& snapshot, std::size_t lane, HeatRange range);

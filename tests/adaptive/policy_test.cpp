@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "renderer/adaptive/policy_parameter.h"
+
 namespace quartet {
 namespace {
 
@@ -203,7 +205,8 @@ TEST(Tables, WithoutAnErrorAllPixelsAreAlikeUnderEachAllocation) {
   }
 }
 
-TEST(Tables, AnAllocationReadsTheFieldsThatItsRowSays) {
+TEST(Tables, AnAllocationReadsTheParametersThatItsRowSays) {
+  const Allocation unusual{.first = 5, .batch = 5, .multiplier = 0.3f, .stochastic_rounding = true};
   for (const AllocationRow& row : allocations()) {
     SamplingPolicy policy = default_policy(EstimatorId::kl);
     policy.allocation.kind = row.key;
@@ -221,13 +224,15 @@ TEST(Tables, AnAllocationReadsTheFieldsThatItsRowSays) {
       return plans(other) != usual;
     };
     SCOPED_TRACE(row.id);
-    EXPECT_EQ(changes([](Allocation& other) { other.first = 5; }), row.reads.first);
-    EXPECT_EQ(changes([](Allocation& other) { other.batch = 5; }), row.reads.batch);
-    EXPECT_EQ(changes([](Allocation& other) { other.multiplier = 0.3f; }), row.reads.multiplier);
-    EXPECT_EQ(changes([](Allocation& other) { other.stochastic_rounding = true; }),
-              row.reads.multiplier);
-    policy.estimator = EstimatorId::uniform;
-    EXPECT_EQ(fields_read(policy), AllocationFields());
+    for (const PolicyParameter& parameter : policy_parameters()) {
+      SCOPED_TRACE(parameter.id);
+      EXPECT_EQ(changes([&](Allocation& other) { copy_parameter(parameter, unusual, other); }),
+                reads(row, parameter.key));
+      EXPECT_EQ(reads(policy, parameter.key), reads(row, parameter.key));
+      SamplingPolicy uniform = policy;
+      uniform.estimator = EstimatorId::uniform;
+      EXPECT_FALSE(reads(uniform, parameter.key));
+    }
   }
 }
 
@@ -240,6 +245,9 @@ TEST(Tables, IdsAreUniqueAndFound) {
   for (const AllocationRow& row : allocations()) {
     EXPECT_EQ(&find_allocation(row.id), &row);
     EXPECT_EQ(&allocation(row.key), &row);
+  }
+  for (const PolicyParameter& row : policy_parameters()) {
+    EXPECT_EQ(&policy_parameter(row.key), &row);
   }
   try {
     find_estimator("kll");

@@ -1,4 +1,4 @@
-#include "renderer/adaptive/estimators/window_kernels.h"
+// The kernels over neighbours against the definitions of window.h.
 
 #include <gtest/gtest.h>
 
@@ -48,14 +48,14 @@ double tolerance(double expected, double mean, double n) {
 
 void expect_agreement(const Film& film) {
   std::vector<float> contrasts(3 * film.size());
-  estimate_contrast({film}, contrasts);
+  estimator(EstimatorId::contrast).estimate({film}, contrasts);
   std::array<std::vector<float>, 3> errors;
   for (auto& plane : errors) {
     plane.resize(film.size());
   }
-  estimate_kl({film}, errors[0]);
-  estimate_chi2({film}, errors[1]);
-  estimate_hellinger({film}, errors[2]);
+  estimator(EstimatorId::kl).estimate({film}, errors[0]);
+  estimator(EstimatorId::chi2).estimate({film}, errors[1]);
+  estimator(EstimatorId::hellinger).estimate({film}, errors[2]);
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) {
       const std::size_t i = pixel_at(film, x, y);

@@ -22,14 +22,10 @@ TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
       if (row.channels > 0) {
         policy.allocation.kind = kind.key;
       }
-      const AllocationFields read_fields = fields_read(policy);
-      if (read_fields.first && read_fields.batch) {
-        policy.allocation.first = 4;
-        policy.allocation.batch = 12;
-      }
-      if (read_fields.multiplier) {
-        policy.allocation.multiplier = 0.1f;
-        policy.allocation.stochastic_rounding = true;
+      for (const PolicyParameter& parameter : policy_parameters()) {
+        if (reads(policy, parameter.key)) {
+          copy_parameter(parameter, all.allocation, policy.allocation);
+        }
       }
       SamplingPolicy read = policy_of_lane(lane_text(all), {});
       for (int c = row.channels; c < 3; ++c) {

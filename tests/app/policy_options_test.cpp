@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -30,16 +31,10 @@ const std::map<std::string, std::string> value_of_word{
 
 /// The same as an option for all lanes.
 PolicyOptions option_of(const std::string& word) {
+  const std::string& text = value_of_word.at(word);
+  const auto row = std::ranges::find(policy_words(), word, &PolicyWord::word);
   PolicyOptions options;
-  if (word == "multiplier") {
-    options.multiplier = 2.0f;
-  } else if (word == "first") {
-    options.first_samples = 3;
-  } else if (word == "batch") {
-    options.batch_samples = 5;
-  } else {
-    options.stochastic_rounding = true;
-  }
+  EXPECT_EQ(row->read(text.substr(text.find('=') + 1), options), "");
   return options;
 }
 
@@ -137,7 +132,8 @@ TEST(PolicyOptions, ContradictionsAreRefused) {
   EXPECT_EQ(error_with({{"kl"}, {}}, options, {.spp = 6.0}), "");
   options.mode = "unbiased";  // twice the samples
   EXPECT_EQ(error_with({{"kl"}, {}}, options, {.spp = 12.0}), "");
-  options.first_samples = 7;
+  options.given = {PolicyParameterId::first};
+  options.parameters.first = 7;
   EXPECT_NE(error_with({{"cycles"}, {}}, options).find("--first-samples 7"), std::string::npos);
 }
 

@@ -155,7 +155,7 @@ TEST(Metrics, NoiseOfMoreSamplesIsBetter) {
     const double more = row.compute(noisy, reference);
     const double less = row.compute(quieter, reference);
     EXPECT_EQ(less > more, row.higher_is_better) << row.id << ": " << more << ", " << less;
-    if (row.quadratic) {
+    if (row.scale == MetricScale::squared_error) {
       EXPECT_NEAR(less, more / 4, 1e-6 * more) << row.id;
     }
   }

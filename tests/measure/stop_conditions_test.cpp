@@ -80,7 +80,7 @@ TEST(StopConditions, ErrorTargetsCountSamplesStillNeeded) {
   for (const Metric& row : metrics()) {
     const ErrorTarget target{row.key, row.higher_is_better ? 40.0 : 0.01};
     const double off = row.higher_is_better ? 40.0 - 10 * std::log10(4.0) : 0.04;
-    EXPECT_NEAR(target.progress(off), row.quadratic || row.higher_is_better ? 0.25 : 0.0625, 1e-12)
+    EXPECT_NEAR(target.progress(off), row.scale == MetricScale::error ? 0.0625 : 0.25, 1e-12)
         << row.id;
     EXPECT_GE(target.progress(target.value), 1.0) << row.id;
     const double nearly = std::nextafter(target.value, row.higher_is_better ? 0.0 : 1.0);

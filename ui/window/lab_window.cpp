@@ -22,7 +22,7 @@ constexpr float side_gap = 6.0f;
 bool wants_variance(const LabState& state) {
   return std::ranges::any_of(state.slots, [](const LaneSlots& slots) {
     return std::ranges::any_of(
-        slots, [](const SlotChoice& choice) { return choice.kind == ViewKind::variance; });
+        slots, [](const SlotChoice& choice) { return view_row(choice.kind).needs.variance; });
   });
 }
 

@@ -10,12 +10,10 @@
 #include "renderer/base/number_text.h"
 #include "ui/widgets/imgui_compat.h"
 #include "ui/widgets/widgets.h"
+#include "ui/window/policy_editor.h"
 
 namespace quartet {
 namespace {
-
-// In pixels at scale 1; where there is less room the number beside it stands alone.
-constexpr float shortest_slider = 20.0f;
 
 constexpr std::array channel_names{"R", "G", "B"};
 
@@ -79,54 +77,6 @@ bool edit_sample_use(Ui& ui, std::size_t lane, SamplingPolicy& policy, float wid
   return chosen;
 }
 
-bool edit_count(Ui& ui, const std::string& name, const char* label, std::uint16_t& count) {
-  int value = count;
-  ImGui::SetNextItemWidth(ui.px(110.0f));
-  const bool changed = ImGui::InputInt(label, &value, 0);
-  if (changed) {
-    count = std::uint16_t(std::clamp(value, 0, 65535));
-  }
-  ui.mark(name);
-  tooltip(ui, "0: as the policy's authors have it.");
-  return changed;
-}
-
-bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) {
-  const std::string name = lane_name(lane, "policy");
-  const bool chosen =
-      combo(ui, name, std::string(allocation(policy.allocation.kind).label), width, [&] {
-        bool changed = false;
-        for (const AllocationRow& row : allocations()) {
-          if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                        policy.allocation.kind == row.key, std::string(row.source))) {
-            policy.allocation.kind = row.key;
-            changed = true;
-          }
-        }
-        ImGui::Separator();
-        changed |= ImGui::Checkbox("round at random", &policy.allocation.stochastic_rounding);
-        ui.mark(name + ".stochastic_rounding");
-        tooltip(ui,
-                "Round multiplier × votes up or down at random, so that its mean is kept, rather "
-                "than down as the report does.");
-        int cap = int(std::min<std::uint32_t>(policy.max_spp, 1u << 30));
-        ImGui::SetNextItemWidth(ui.px(110.0f));
-        if (ImGui::InputInt("maximum spp", &cap, 0) && cap >= 1) {
-          policy.max_spp = std::uint32_t(cap);
-          changed = true;
-        }
-        ui.mark(name + ".max_spp");
-        if (policy.allocation.kind != AllocationId::vote) {
-          changed |= edit_count(ui, name + ".first", "first samples", policy.allocation.first);
-          changed |= edit_count(ui, name + ".batch", "batch samples", policy.allocation.batch);
-        }
-        return changed;
-      });
-  tooltip(ui, "How errors become sample counts, by " +
-                  std::string(allocation(policy.allocation.kind).source));
-  return chosen;
-}
-
 /// Of a combo box that holds any label of a table.
 template <class Row>
 float widest_combo(const Ui& ui, std::span<const Row> table) {
@@ -135,31 +85,6 @@ float widest_combo(const Ui& ui, std::span<const Row> table) {
     widest = std::max(widest, combo_width(ui, row.label));
   }
   return widest;
-}
-
-/// Nothing for a policy without votes to multiply.
-bool edit_multiplier(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRect box) {
-  if (policy.allocation.kind != AllocationId::vote) {
-    return false;
-  }
-  const float field = ui.px(40.0f);
-  const float gap = ui.px(4.0f);
-  text_at(ui.body, box.x, box.y + ui.px(4.0f), palette::dim, "×");
-  ImGui::SetCursorScreenPos({box.x + ui.px(14.0f), box.y});
-  float& value = policy.allocation.multiplier;
-  const float track = box.width - field - gap - ui.px(14.0f);
-  bool changed = false;
-  if (track >= ui.px(shortest_slider)) {
-    changed =
-        slider(ui, lane_name(lane, "multiplier"), value, {0.0f, 2.0f}, track, lane_color(lane));
-    tooltip(ui,
-            "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 its "
-            "pictures.");
-  }
-  ImGui::SetCursorScreenPos({box.right() - field, box.y});
-  changed |=
-      number_field(ui, lane_name(lane, "multiplier.number"), value, 0.0f, 1000.0f, "%.2f", field);
-  return changed;
 }
 
 std::string source_text(const Estimator& row) {
@@ -335,7 +260,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     ImGui::SetCursorScreenPos({first.x, first.y});
     changed |= edit_sample_use(ui, lane, edited, use_width);
     first.cut_left(use_width + gap);
-    changed |= edit_multiplier(ui, lane, edited, first.cut_left(ui.px(160.0f)));
+    changed |= edit_header_parameter(ui, lane, edited, first.cut_left(ui.px(160.0f)));
     ScreenRect second = box.cut_top(row);
     // Of the usual numbers, not of these: a slider that grew as they change would move under the
     // mouse that drags it.
@@ -361,7 +286,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     ImGui::SetCursorScreenPos({second.x, second.y});
     changed |= edit_sample_use(ui, lane, edited, use_width);
     second.cut_left(use_width + gap);
-    changed |= edit_multiplier(ui, lane, edited, second);
+    changed |= edit_header_parameter(ui, lane, edited, second);
     changed |= edit_thresholds(ui, lane, edited, box.cut_top(row));
     draw_numbers(frame, lane, box, false);
   }

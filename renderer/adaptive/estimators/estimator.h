@@ -9,7 +9,6 @@
 namespace quartet {
 
 enum class EstimatorId {
-  uniform,
   contrast,
   kl,
   chi2,
@@ -22,6 +21,7 @@ enum class EstimatorId {
   rigau_chi2,
   rigau_hellinger,
   oracle,
+  uniform,
 };
 
 enum class AllocationId;  // policy.h

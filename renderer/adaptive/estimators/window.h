@@ -9,7 +9,7 @@
 namespace quartet {
 
 /// Error of one window of RGB values, straight from the definitions: what the criteria mean. The
-/// kernels in window_kernels.h compute the same for every pixel of a picture; the tests hold the
+/// kernels in window_kernels.cpp compute the same for every pixel of a picture; the tests hold the
 /// two against each other.
 ///
 /// T is float or double; a window is three spans of equal length n ≥ 1, linear radiance ≥ 0.

@@ -1,5 +1,3 @@
-#include "renderer/adaptive/estimators/window_kernels.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,10 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/adaptive/estimators/estimator_rows.h"
 #include "renderer/base/parallel.h"
 
 namespace quartet {
 namespace {
+
+// The criteria of window.h over the 3 × 3 neighbourhood of pixel means around every pixel; at the
+// border the window holds the 6 or 4 pixels that exist. Single precision, in forms that keep their
+// digits for nearly equal values and are exactly 0 for equal ones.
 
 // Below this mean luminance a reciprocal would leave the range of float; the error, which is
 // smaller still, is taken as 0.
@@ -265,8 +268,7 @@ void divergence_plane(const Film& film, std::span<float> error) {
   });
 }
 
-}  // namespace
-
+/// `error` is three planes: R, G, B.
 void estimate_contrast(const EstimatorInput& input, std::span<float> error) {
   const Film& film = input.film;
   assert(error.size() == 3 * film.size());
@@ -277,6 +279,8 @@ void estimate_contrast(const EstimatorInput& input, std::span<float> error) {
     }
   });
 }
+
+// `error` is one plane each.
 
 void estimate_kl(const EstimatorInput& input, std::span<float> error) {
   divergence_plane<KullbackLeibler>(input.film, error);
@@ -289,5 +293,54 @@ void estimate_chi2(const EstimatorInput& input, std::span<float> error) {
 void estimate_hellinger(const EstimatorInput& input, std::span<float> error) {
   divergence_plane<Hellinger>(input.film, error);
 }
+
+constexpr std::string_view tuned_by_eye = "tuned by eye against contrast in the 2021 report";
+
+}  // namespace
+
+constexpr Estimator contrast_estimator{
+    .key = EstimatorId::contrast,
+    .id = "contrast",
+    .label = "Mitchell contrast",
+    .unit = "contrast",
+    .source = "Mitchell 1987, Generating Antialiased Images at Low Sampling Densities",
+    .threshold_source = "Mitchell 1987",
+    .channels = 3,
+    .default_thresholds = {0.4f, 0.3f, 0.6f},
+    .estimate = estimate_contrast,
+    .default_allocation = AllocationId::vote};
+
+constexpr Estimator kl_estimator{.key = EstimatorId::kl,
+                                 .id = "kl",
+                                 .label = "√ Kullback–Leibler",
+                                 .unit = "radiance",
+                                 .source = rigau_2003,
+                                 .threshold_source = tuned_by_eye,
+                                 .channels = 1,
+                                 .default_thresholds = {0.005f, 0.0f, 0.0f},
+                                 .estimate = estimate_kl,
+                                 .default_allocation = AllocationId::vote};
+
+constexpr Estimator chi2_estimator{.key = EstimatorId::chi2,
+                                   .id = "chi2",
+                                   .label = "√ χ²",
+                                   .unit = "radiance",
+                                   .source = rigau_2003,
+                                   .threshold_source = tuned_by_eye,
+                                   .channels = 1,
+                                   .default_thresholds = {0.007f, 0.0f, 0.0f},
+                                   .estimate = estimate_chi2,
+                                   .default_allocation = AllocationId::vote};
+
+constexpr Estimator hellinger_estimator{.key = EstimatorId::hellinger,
+                                        .id = "hellinger",
+                                        .label = "√ Hellinger",
+                                        .unit = "radiance",
+                                        .source = rigau_2003,
+                                        .threshold_source = tuned_by_eye,
+                                        .channels = 1,
+                                        .default_thresholds = {0.003f, 0.0f, 0.0f},
+                                        .estimate = estimate_hellinger,
+                                        .default_allocation = AllocationId::vote};
 
 }  // namespace quartet

@@ -89,10 +89,11 @@ void draw_legend(const Ui& ui, const ScreenRect& box, const std::vector<ColorMea
 
 float color_key_height(const Ui& ui, ViewKind kind) {
   const float line = font_size(ui.small) + ui.px(2.0f);
-  if (view_row(kind).has_bar) {
+  const ViewRow& row = view_row(kind);
+  if (row.has_bar) {
     return ui.px(bar_height + 5.0f) + line;
   }
-  return kind == ViewKind::stop_state ? 2 * line + ui.px(4.0f) : 0.0f;
+  return row.has_legend ? 2 * line + ui.px(4.0f) : 0.0f;
 }
 
 void draw_color_key(LabFrame& frame, const PictureSlot& slot, const ScreenRect& box) {

@@ -20,8 +20,9 @@ SlotChoice& choice_of(LabState& state, const PictureSlot& slot) {
 
 std::string choice_label(const SlotChoice& choice) {
   const std::string label(view_row(choice.kind).label);
-  return choice.kind == ViewKind::difference ? fmt::format("{} to lane {}", label, choice.other + 1)
-                                             : label;
+  return view_row(choice.kind).needs.other_lane
+             ? fmt::format("{} to lane {}", label, choice.other + 1)
+             : label;
 }
 
 /// The combo box in the corner of the picture.
@@ -38,7 +39,7 @@ bool edit_choice(Ui& ui, const PictureSlot& slot, SlotChoice& choice) {
   const bool changed = combo(ui, name, shown, width, [&] {
     bool chosen = false;
     for (const ViewRow& row : views()) {
-      if (row.key != ViewKind::difference) {
+      if (!row.needs.other_lane) {
         if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
                       choice.kind == row.key, std::string(row.quantity))) {
           choice.kind = row.key;
@@ -125,6 +126,8 @@ void draw_numbers(LabFrame& frame, const PictureSlot& slot, const PicturePlace& 
     return;
   }
   const SlotChoice choice = shown_choice(frame.state, slot);
+  ViewSettings settings = frame.state.view;
+  settings.other = choice.other;
   const auto first = [&](float edge, float origin) {
     return std::max(0, int(std::floor((edge - origin) / place.scale)));
   };
@@ -132,8 +135,10 @@ void draw_numbers(LabFrame& frame, const PictureSlot& slot, const PicturePlace& 
   const int y1 = std::min(image.height() - 1, first(slot.box.bottom(), place.y));
   for (int y = first(slot.box.y, place.y); y <= y1; ++y) {
     for (int x = first(slot.box.x, place.x); x <= x1; ++x) {
+      const std::size_t pixel =
+          std::size_t(y) * std::size_t(frame.snapshot->width) + std::size_t(x);
       const std::vector<std::string> lines =
-          pixel_lines(*frame.snapshot, slot.source, choice.kind, choice.other, x, y);
+          pixel_lines(*frame.snapshot, slot.source, choice.kind, settings, pixel);
       const Rgba8 ground = image.at(x, y);
       const bool light = 2 * ground.r + 5 * ground.g + ground.b > 8 * 110;
       const ImU32 color = light ? IM_COL32(0, 0, 0, 255) : IM_COL32(255, 255, 255, 255);

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "renderer/base/number_text.h"
 
 namespace quartet {
 namespace {
-
-std::vector<std::string> lines_of(glm::vec3 values) {
-  return {short_number(values.r), short_number(values.g), short_number(values.b)};
-}
 
 std::string error_text(const Estimator& row, const PixelValues& values) {
   if (row.channels == 0) {
@@ -25,65 +21,9 @@ std::string error_text(const Estimator& row, const PixelValues& values) {
 
 }  // namespace
 
-std::string short_number(float value) {
-  const float size = std::abs(value);
-  if (!std::isfinite(value)) {
-    return fmt::format("{}", value);
-  }
-  if (size == 0.0f) {
-    return "0";
-  }
-  if (size < 0.001f || size >= 10000.0f) {
-    return fmt::format("{:.1e}", value);
-  }
-  return size < 1.0f     ? fmt::format("{:.{}f}", value, size < 0.01f ? 4 : 3)
-         : size < 10.0f  ? fmt::format("{:.2f}", value)
-         : size < 100.0f ? fmt::format("{:.1f}", value)
-                         : fmt::format("{:.0f}", value);
-}
-
 std::string three_numbers(glm::vec3 values) {
   return fmt::format("{} {} {}", short_number(values.r), short_number(values.g),
                      short_number(values.b));
-}
-
-std::vector<std::string> pixel_lines(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
-                                     std::size_t other, int x, int y) {
-  const std::size_t pixel = std::size_t(y) * std::size_t(snapshot.width) + std::size_t(x);
-  const LaneSnapshot& shown = snapshot.lanes[lane];
-  const PixelValues values = pixel_values(shown, pixel);
-  switch (kind) {
-    case ViewKind::image:
-      return lines_of(values.radiance);
-    case ViewKind::difference:
-      if (other < snapshot.lanes.size()) {
-        return lines_of(values.radiance - pixel_values(snapshot.lanes[other], pixel).radiance);
-      }
-      return {};
-    case ViewKind::variance:
-      return values.variance ? lines_of(*values.variance) : std::vector<std::string>{};
-    case ViewKind::error:
-      return values.error_channels > 0 ? std::vector{short_number(values.scaled_error)}
-                                       : std::vector<std::string>{};
-    case ViewKind::reference:
-    case ViewKind::true_error: {
-      if (!snapshot.reference) {
-        return {};
-      }
-      const glm::vec3 truth = snapshot.reference->pixels()[pixel];
-      if (kind == ViewKind::reference) {
-        return lines_of(truth);
-      }
-      const glm::vec3 off = values.radiance - truth;
-      return lines_of(off * off / (truth * truth + 0.01f));
-    }
-    case ViewKind::rejected:
-      return {fmt::format("{}", values.rejected)};
-    case ViewKind::heatmap:
-    case ViewKind::stop_state:
-      break;
-  }
-  return {fmt::format("{}", values.taken)};
 }
 
 std::vector<std::string> read_out_texts(const Estimator& row, const PixelValues& values,

@@ -1,0 +1,37 @@
+#include "renderer/adaptive/estimators/each_pixel.h"
+#include "renderer/adaptive/estimators/estimator_rows.h"
+
+namespace quartet {
+namespace {
+
+/// The true squared error against the reference, mean of R, G and B: what a perfect estimator
+/// would know. Infinite only for a pixel without samples.
+void estimate_oracle(const EstimatorInput& input, std::span<float> error) {
+  assert(input.reference.size() == input.film.size());
+  const Film& film = input.film;
+  each_pixel(input, error, 1, [&](std::size_t i, std::uint32_t) {
+    double sum = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const double difference = double(film.mean(c)[i]) - double(input.reference[i][c]);
+      sum += difference * difference;
+    }
+    return sum / 3.0;
+  });
+}
+
+}  // namespace
+
+constexpr Estimator oracle_estimator{
+    .key = EstimatorId::oracle,
+    .id = "oracle",
+    .label = "oracle",
+    .unit = "radiance²",
+    .source = "the true squared error against a reference: what a perfect estimator would know",
+    .threshold_source = "a true error of a hundredth of radiance",
+    .channels = 1,
+    .default_thresholds = {1e-4f, 0.0f, 0.0f},
+    .estimate = estimate_oracle,
+    .default_allocation = AllocationId::batch,
+    .needs_reference = true};
+
+}  // namespace quartet

@@ -1,0 +1,35 @@
+#include "renderer/adaptive/estimators/each_pixel.h"
+#include "renderer/adaptive/estimators/estimator_rows.h"
+#include "renderer/adaptive/estimators/quantiles.h"
+
+namespace quartet {
+namespace {
+
+/// Lee, Redner and Uselton, "Statistically Optimized Sampling for Distributed Ray Tracing",
+/// SIGGRAPH 1985: what the variance of the mean luminance stays below with 95 % confidence, were
+/// samples normally distributed, (n − 1) s² / χ²(0.05, n − 1) / n.
+void estimate_variance(const EstimatorInput& input, std::span<float> error) {
+  const Film& film = input.film;
+  each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
+    return film.spread(Divergence::chi2, i) / chi_square_05(n - 1) / double(n);
+  });
+}
+
+}  // namespace
+
+constexpr Estimator variance_estimator{
+    .key = EstimatorId::variance,
+    .id = "variance",
+    .label = "variance bound",
+    .unit = "radiance²",
+    .source =
+        "Lee, Redner and Uselton 1985, Statistically Optimized Sampling for Distributed Ray "
+        "Tracing",
+    .threshold_source = "a standard error of a hundredth of radiance",
+    .channels = 1,
+    .default_thresholds = {1e-4f, 0.0f, 0.0f},
+    .estimate = estimate_variance,
+    .default_allocation = AllocationId::batch,
+    .needs = {.chi2 = true}};
+
+}  // namespace quartet

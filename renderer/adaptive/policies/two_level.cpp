@@ -1,0 +1,27 @@
+#include "renderer/adaptive/policies/allocation_rows.h"
+#include "renderer/adaptive/policies/plan_parts.h"
+
+namespace quartet {
+namespace {
+
+/// Mitchell 1987: one sample everywhere, and after a single look eight more where it is needed.
+void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  if (input.frame == 0) {
+    plan_everywhere(plan, chosen_samples(policy.allocation.first, 1));
+  } else {
+    const std::uint16_t batch = chosen_samples(policy.allocation.batch, usual_batch);
+    plan_not_done(policy, input, plan, input.frame == 1 ? batch : 0);
+  }
+}
+
+}  // namespace
+
+constexpr AllocationRow two_level_allocation{
+    .key = AllocationId::two_level,
+    .id = "two-level",
+    .label = "two-level",
+    .source = "Mitchell 1987: 1 sample everywhere, then once 8 more",
+    .parameters = batch_parameters,
+    .plan = plan_two_level};
+
+}  // namespace quartet

@@ -1,0 +1,88 @@
+#include <array>
+
+#include "renderer/adaptive/policies/allocation_rows.h"
+#include "renderer/adaptive/policies/plan_parts.h"
+
+namespace quartet {
+namespace {
+
+/// A uniform number in [0, 1) that belongs to (pixel, frame).
+float dither(std::uint32_t pixel, std::uint32_t frame) {
+  std::uint32_t x = pixel * 0x9e3779b9u + frame * 0x85ebca6bu;
+  x ^= x >> 16;
+  x *= 0x21f0aaadu;
+  x ^= x >> 15;
+  x *= 0x735a2d97u;
+  x ^= x >> 15;
+  return float(x >> 8) * 0x1p-24f;
+}
+
+/// The policy of the 2021 report: every pixel that is not done votes for itself and its up to
+/// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
+void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+  if (input.frame == 0) {
+    plan_everywhere(plan, 1);
+    return;
+  }
+  const auto width = std::size_t(input.width);
+  const float multiplier = policy.allocation.multiplier;
+  plan_rows(policy, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
+    const std::uint8_t* columns = marks.columns(int(y));
+    // Through int, for which there are vectors; it rounds down because no term is negative.
+    if (policy.allocation.stochastic_rounding) {
+      const auto first = std::uint32_t(y * width);
+#pragma omp simd
+      for (std::size_t x = 0; x < width; ++x) {
+        const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+        const float offset = dither(first + std::uint32_t(x), input.frame);
+        wanted[x] = std::uint16_t(1 + int(multiplier * float(votes) + offset));
+      }
+    } else {
+#pragma omp simd
+      for (std::size_t x = 0; x < width; ++x) {
+        const int votes = columns[x] + columns[x + 1] + columns[x + 2];
+        wanted[x] = std::uint16_t(1 + int(multiplier * float(votes)));
+      }
+    }
+  });
+}
+
+constexpr std::array vote_parameters{PolicyParameterId::multiplier,
+                                     PolicyParameterId::stochastic_rounding};
+
+static_assert(Allocation().multiplier == 0.5f, "the help says so");
+
+}  // namespace
+
+constexpr PolicyParameter multiplier_parameter{
+    .key = PolicyParameterId::multiplier,
+    .id = "multiplier",
+    .word = "multiplier",
+    .label = "×",
+    .help =
+        "extra samples for each vote, 0.5 if not given; 1 is the text of the 2021 report, 0.5 "
+        "its pictures",
+    .tooltip =
+        "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 "
+        "its pictures.",
+    .value = RealParameter{&Allocation::multiplier, 0.0f, 1000.0f, 2.0f}};
+
+constexpr PolicyParameter stochastic_rounding_parameter{
+    .key = PolicyParameterId::stochastic_rounding,
+    .id = "stochastic_rounding",
+    .word = "stochastic-rounding",
+    .label = "round at random",
+    .help = "round multiplier x votes at random instead of down",
+    .tooltip =
+        "Round multiplier × votes up or down at random, so that its mean is kept, rather "
+        "than down as the report does.",
+    .value = FlagParameter{&Allocation::stochastic_rounding}};
+
+constexpr AllocationRow vote_allocation{.key = AllocationId::vote,
+                                        .id = "vote",
+                                        .label = "vote",
+                                        .source = "the 2021 course report",
+                                        .parameters = vote_parameters,
+                                        .plan = plan_vote};
+
+}  // namespace quartet

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "renderer/adaptive/policy.h"
+#include "ui/widgets/screen_rect.h"
+#include "ui/widgets/theme.h"
+
+namespace quartet {
+
+/// In pixels at scale 1; where there is less room the number beside a slider stands alone.
+inline constexpr float shortest_slider = 20.0f;
+
+// Each returns whether the policy was changed.
+
+/// How errors become sample counts: a combo box at the cursor, with the parameters of the policy in
+/// its menu.
+bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width);
+
+/// The parameter of the policy that has a slider; nothing where it has none.
+bool edit_header_parameter(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRect box);
+
+}  // namespace quartet
