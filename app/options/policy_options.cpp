@@ -135,9 +135,10 @@ PolicyWord max_spp_word() {
 
 template <class Number>
 std::string read_parameter(const Number& parameter, const std::string& text, Allocation& to) {
-  auto& value = to.*parameter.member;
-  const NumberRange range{parameter.low, parameter.high};
-  const auto number = number_in(text, range);
+  using Value = std::decay_t<decltype(parameter.low)>;
+  Value& value = to.*parameter.member;
+  const NumberRange<Value> range{parameter.low, parameter.high};
+  const std::optional<Value> number = number_in(text, range);
   value = number.value_or(value);
   return number ? "" : out_of_range(text, range);
 }
