@@ -176,11 +176,10 @@ TEST(PixelState, OfALaneIsThatOfItsSnapshot) {
   std::array<SamplingPolicy, 3> policies{default_policy(EstimatorId::contrast),
                                          default_policy(EstimatorId::cycles),
                                          default_policy(EstimatorId::uniform)};
-  policies[0].thresholds = {0.02f, 0.2f, 0.5f};
   for (SamplingPolicy& policy : policies) {
     policy.allocation.kind = AllocationId::vote;
-    policy.max_spp = 5;
   }
+  policies[0].max_spp = 8;
   constexpr int side = 16;
   Lab lab(test::noisy_source(side), side, side, policies);
   for (int frame = 0; frame < 3; ++frame) {

@@ -393,6 +393,9 @@ TEST(SweepCharts, OfTracedSamplesHaveOneAgainstRays) {
   for (std::size_t i = 0; i < charts[1].lines.size(); ++i) {
     const Line& rays = charts[1].lines[i];
     const Line& samples = charts[2].lines[i];
+    if (rays.dashed) {
+      continue;  // the baseline: from one end of the axis to the other
+    }
     ASSERT_EQ(rays.points.size(), samples.points.size());
     for (std::size_t k = 0; k < rays.points.size(); ++k) {
       EXPECT_NEAR(rays.points[k].x / samples.points[k].x, 7.0, 1e-9);
