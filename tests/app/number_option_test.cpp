@@ -29,7 +29,9 @@ std::vector<std::string> commands_of_help() {
   for (std::string line; std::getline(lines, line);) {
     std::smatch found;
     below = below || line == "Subcommands:";
-    if (below && std::regex_search(line, found, std::regex("^  ([a-z]+) "))) {
+    // Below the commands stand examples.
+    if (below && std::regex_search(line, found, std::regex("^  ([a-z]+) ")) &&
+        found[1] != "quartet") {
       commands.push_back(found[1]);
     }
   }
