@@ -39,9 +39,9 @@ std::string joined_command_line(const std::vector<std::string>& words) {
 
 /// The word with a home folder for the ~ of --out=~/x and -o~/x, which no shell replaces there.
 std::string with_home(const std::string& word) {
-  std::size_t value = word.starts_with("--") ? word.find('=') : 1;
-  if (!word.starts_with('-') || value == std::string::npos || ++value >= word.size() ||
-      word[value] != '~') {
+  // Without an equals sign it is 0, where no ~ stands.
+  const std::size_t value = word.starts_with("--") ? word.find('=') + 1 : 2;
+  if (!word.starts_with('-') || value >= word.size() || word[value] != '~') {
     return word;
   }
   try {
