@@ -17,9 +17,11 @@ std::size_t first_pixel(const Film& film, const SampleStore::TileMeans& tile, in
 }
 
 /// Looks up a tile of which some sample was rejected: the newly taken ones must be looked at.
-void look_up_with_rejected(Film& film, const FrameSamples& frame,
-                           const SampleStore::TileMeans& tile) {
+/// Returns the work of all.
+std::uint64_t look_up_with_rejected(Film& film, const FrameSamples& frame,
+                                    const SampleStore::TileMeans& tile) {
   std::vector<glm::vec3> samples;
+  std::uint64_t work = 0;
   for (int y = 0; y < tile.rows; ++y) {
     const std::size_t first = first_pixel(film, tile, y);
     for (int x = 0; x < tile.columns; ++x) {
@@ -28,10 +30,16 @@ void look_up_with_rejected(Film& film, const FrameSamples& frame,
       samples.resize(frame.wanted[pixel]);
       frame.store.read(pixel, taken - frame.wanted[pixel], samples);
       film.reject(pixel, samples);
-      film.put(pixel, taken - film.rejected()[pixel],
-               tile.of(taken)[y * SampleStore::tile_size + x]);
+      const FirstSamples& first_samples = tile.of(taken)[y * SampleStore::tile_size + x];
+      film.put(pixel, taken - film.rejected()[pixel], first_samples.mean);
+      work += taken + first_samples.rays;
     }
   }
+  return work;
+}
+
+std::size_t cell_of(const SampleStore& store, int tile_column) {
+  return SampleCosts::cell(std::size_t(tile_column), std::size_t(store.tile_columns()));
 }
 
 }  // namespace
@@ -41,7 +49,7 @@ bool looks_up(const Film& film, const SampleStore& store) {
 }
 
 /// Reads the means of all samples taken, one tile after the other as they lie in memory.
-void look_up(Film& film, const FrameSamples& frame, int tile_row) {
+void look_up(Film& film, const FrameSamples& frame, int tile_row, std::span<std::uint64_t> cells) {
   // Asked for this many tiles ahead, means have come when they are wanted, and so have the places
   // that they go to; else a replay does little but wait for memory. Into the second-level cache,
   // which waits for more lines at a time than the first does.
@@ -67,20 +75,25 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row) {
     }
     const SampleStore::TileMeans tile = store.tile_means(column, tile_row);
     if (tile.rejected) {
-      look_up_with_rejected(film, frame, tile);
+      cells[cell_of(store, column)] += look_up_with_rejected(film, frame, tile);
       continue;
     }
+    std::uint64_t work = 0;
     for (int y = 0; y < tile.rows; ++y) {
       const std::size_t first = first_pixel(film, tile, y);
       for (int x = 0; x < tile.columns; ++x) {
         const std::size_t pixel = first + std::size_t(x);
-        film.put(pixel, taken[pixel], tile.of(taken[pixel])[y * side + x]);
+        const FirstSamples& first_samples = tile.of(taken[pixel])[y * side + x];
+        film.put(pixel, taken[pixel], first_samples.mean);
+        work += taken[pixel] + first_samples.rays;
       }
     }
+    cells[cell_of(store, column)] += work;
   }
 }
 
-void accumulate(Film& film, const FrameSamples& frame, int tile_row) {
+void accumulate(Film& film, const FrameSamples& frame, int tile_row,
+                std::span<std::uint64_t> cells) {
   // As above.
   constexpr std::size_t ahead = 32;
   const std::size_t row = SampleStore::tile_size * std::size_t(film.width());
@@ -100,6 +113,10 @@ void accumulate(Film& film, const FrameSamples& frame, int tile_row) {
       frame.store.read(pixel, frame.taken[pixel] - wanted, samples);
       film.add(pixel, samples);
     }
+  }
+  for (int column = 0; column < frame.store.tile_columns(); ++column) {
+    cells[cell_of(frame.store, column)] +=
+        frame.store.tile_work(column, tile_row, frame.taken, frame.wanted);
   }
 }
 

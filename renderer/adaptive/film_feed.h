@@ -23,8 +23,11 @@ bool looks_up(const Film& film, const SampleStore& store);
 
 // For one row of tiles; calls for different rows may come from different threads.
 
-void look_up(Film& film, const FrameSamples& frame, int tile_row);
-void accumulate(Film& film, const FrameSamples& frame, int tile_row);
+/// Adds the work of all samples taken to `cells`, the eight cells of SampleCosts along the row.
+void look_up(Film& film, const FrameSamples& frame, int tile_row, std::span<std::uint64_t> cells);
+/// Adds the work of this frame's samples to `cells`.
+void accumulate(Film& film, const FrameSamples& frame, int tile_row,
+                std::span<std::uint64_t> cells);
 
 /// Sums up what was looked up, `taken` samples of every pixel, so that it can be added to. Runs on
 /// the threads of the current TBB arena.

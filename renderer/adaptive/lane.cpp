@@ -28,11 +28,15 @@ bool begin_film(Film& film, const SampleStore& store, std::uint32_t frame) {
   return false;
 }
 
-void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_up_store) {
+void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_up_store,
+              SampleCosts::Work& work) {
+  const auto rows = std::size_t(samples.store.tile_rows());
+  const std::size_t first = SampleCosts::side * SampleCosts::cell(std::size_t(tile_row), rows);
+  const std::span cells = std::span(work.units).subspan(first, SampleCosts::side);
   if (looks_up_store) {
-    look_up(film, samples, tile_row);
+    look_up(film, samples, tile_row, cells);
   } else {
-    accumulate(film, samples, tile_row);
+    accumulate(film, samples, tile_row, cells);
   }
 }
 
@@ -58,7 +62,8 @@ void Lane::restart(const SamplingPolicy& policy, const LaneInputs& inputs) {
   error_.clear();
   std::fill(taken_.begin(), taken_.end(), 0u);
   history_.clear();
-  work_ = {};
+  shown_work_ = {};
+  pilot_work_ = {};
   own_seconds_ = 0.0;
   replan(0);
 }
@@ -79,11 +84,10 @@ void Lane::take(const LaneStores& stores, int tile_row) {
   const std::size_t end = std::min(begin + SampleStore::tile_size * width, film_.size());
   RowTotal& total = rows_[std::size_t(tile_row)];
   total.max_spp = count(begin, end);
-  add_work(stores.shown, tile_row, total.work);
-  take_row(film_, {stores.shown, taken_, plan_.wanted}, tile_row, looks_up_shown_);
+  take_row(film_, {stores.shown, taken_, plan_.wanted}, tile_row, looks_up_shown_, total.shown);
   if (pilot_) {
-    add_work(*stores.pilot, tile_row, total.work);
-    take_row(*pilot_, {*stores.pilot, taken_, plan_.wanted}, tile_row, looks_up_pilot_);
+    take_row(*pilot_, {*stores.pilot, taken_, plan_.wanted}, tile_row, looks_up_pilot_,
+             total.pilot);
   }
 }
 
@@ -106,19 +110,28 @@ void Lane::end_frame(double take_seconds) {
   record.samples += pilot_ ? 2 * plan_.total : plan_.total;
   record.pilot_samples += pilot_ ? plan_.total : 0;
   record.max_spp = 0;
+  if (looks_up_shown_) {
+    shown_work_ = {};
+  }
+  if (looks_up_pilot_) {
+    pilot_work_ = {};
+  }
   for (const RowTotal& total : rows_) {
     record.max_spp = std::max(record.max_spp, total.max_spp);
-    work_ += total.work;
+    shown_work_ += total.shown;
+    pilot_work_ += total.pilot;
   }
+  SampleCosts::Work work = shown_work_;
+  work += pilot_work_;
   // Each sample is one unit of work beside its rays.
   record.rays =
-      std::accumulate(work_.units.begin(), work_.units.end(), std::uint64_t(0)) - record.samples;
+      std::accumulate(work.units.begin(), work.units.end(), std::uint64_t(0)) - record.samples;
   replan(record.frame);
   own_seconds_ += take_seconds + watch.seconds();
   record.not_done = plan_.not_done;
   record.seconds = own_seconds_;
   record.true_error = FrameRecord().true_error;
-  history_.push(record, work_);
+  history_.push(record, work);
 }
 
 void Lane::forget_true_errors() {
@@ -138,18 +151,6 @@ std::uint32_t Lane::count(std::size_t begin, std::size_t end) {
     most = std::max(most, taken[i]);
   }
   return most;
-}
-
-/// Adds the work of what this frame takes of a row of tiles.
-void Lane::add_work(const SampleStore& store, int tile_row, SampleCosts::Work& work) const {
-  const auto columns = std::size_t(store.tile_columns());
-  const auto rows = std::size_t(store.tile_rows());
-  std::uint64_t* cells =
-      work.units.data() + SampleCosts::side * SampleCosts::cell(std::size_t(tile_row), rows);
-  for (std::size_t column = 0; column < columns; ++column) {
-    cells[SampleCosts::cell(column, columns)] +=
-        store.tile_work(int(column), tile_row, taken_, plan_.wanted);
-  }
 }
 
 void Lane::catch_up_shown(const SampleStore& store) {

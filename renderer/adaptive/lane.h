@@ -78,11 +78,12 @@ class Lane {
   /// What a row of tiles adds to a frame's record.
   struct RowTotal {
     std::uint32_t max_spp = 0;
-    SampleCosts::Work work;  // new
+    // Of all samples where they were looked up, else of those of this frame.
+    SampleCosts::Work shown;
+    SampleCosts::Work pilot;
   };
 
   std::uint32_t count(std::size_t begin, std::size_t end);
-  void add_work(const SampleStore& store, int tile_row, SampleCosts::Work& work) const;
   void replan(std::uint32_t frame);
 
   SamplingPolicy policy_;
@@ -96,7 +97,9 @@ class Lane {
   std::vector<RowTotal> rows_;
   bool looks_up_shown_ = false;
   bool looks_up_pilot_ = false;
-  SampleCosts::Work work_;  // of all samples so far
+  // Of all samples so far.
+  SampleCosts::Work shown_work_;
+  SampleCosts::Work pilot_work_;
   double own_seconds_ = 0.0;
 };
 

@@ -19,9 +19,15 @@ struct SamplePlane {
   std::uint16_t rays[plane_values];  ///< that it took
 };
 
-/// The mean radiance of each pixel of a tile.
+/// The first samples of a pixel, so many of them.
+struct FirstSamples {
+  glm::vec3 mean;      ///< linear radiance
+  std::uint32_t rays;  ///< that they took
+};
+
+/// The same number of first samples of each pixel of a tile.
 struct MeanPlane {
-  glm::vec3 radiance[plane_values];
+  FirstSamples pixels[plane_values];
 };
 
 /// Memory for planes. What is given back is used again.

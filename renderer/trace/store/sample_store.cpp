@@ -35,7 +35,7 @@ SampleStore::SampleStore(int width, int height, std::size_t memory_budget, bool 
   if (keep_means) {
     // Of no samples: the same for all tiles.
     empty.means = {mean_planes_.allocate()};
-    std::ranges::fill(empty.means.front()->radiance, glm::vec3(0.0f));
+    std::ranges::fill(empty.means.front()->pixels, FirstSamples{glm::vec3(0.0f), 0});
   }
   const auto columns = std::uint32_t(width);
   const auto rows = std::uint32_t(height);
@@ -236,7 +236,7 @@ void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
       job.rejected |= !acceptable(samples[k]);
     }
     if (has_means_) {
-      append_means(job.pixel, samples);
+      append_means(asked[i], job.pixel);
     }
     job.traced = true;
     work += asked[i].work;
@@ -247,30 +247,35 @@ void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
   }
 }
 
-/// Writes the means up to each of the samples that come next.
-void SampleStore::append_means(std::uint32_t pixel, std::span<const glm::vec3> samples) {
+/// Writes the means up to each of the samples that come next, which lie in their planes already.
+void SampleStore::append_means(const SampleJob& made, std::uint32_t pixel) {
   const Place place = places_[pixel];
   const Tile& tile = tiles_[place.tile];
   Prefix& prefix = prefixes_[pixel];
   const std::uint32_t begin = ends_[pixel];
   RunningMean running{prefix.sum, prefix.count};
+  std::uint32_t rays = prefix.rays;
   if (prefix.end != begin) {
     // An earlier pass threw after it had come here: what it made does not count.
     running = {};
+    rays = 0;
     for (std::uint32_t i = 0; i < begin; ++i) {
+      rays += tile.samples[i]->rays[place.offset];
       const glm::vec3& sample = tile.samples[i]->radiance[place.offset];
       if (acceptable(sample)) {
         running.add(sample);
       }
     }
   }
-  for (std::uint32_t k = 0; k < samples.size(); ++k) {
-    if (acceptable(samples[k])) {
-      running.add(samples[k]);
+  const auto count = std::uint32_t(made.radiance.size());
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (acceptable(made.radiance[k])) {
+      running.add(made.radiance[k]);
     }
-    tile.means[begin + k + 1]->radiance[place.offset] = running.mean();
+    rays += made.rays[k];
+    tile.means[begin + k + 1]->pixels[place.offset] = {running.mean(), rays};
   }
-  prefix = {running.sum, running.count, begin + std::uint32_t(samples.size())};
+  prefix = {running.sum, running.count, rays, begin + count};
 }
 
 std::size_t SampleStore::cell_of(std::uint32_t tile) const {

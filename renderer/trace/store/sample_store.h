@@ -77,9 +77,9 @@ class SampleStore {
     /// Whether any sample of the tile was rejected, so that a mean may be of fewer than n.
     bool rejected;
 
-    /// The means of n samples: element tile_size · row + column is that of a pixel. Of a pixel
-    /// without samples, black.
-    const glm::vec3* of(std::uint32_t n) const { return planes[n]->radiance; }
+    /// Of n samples: element tile_size · row + column is that of a pixel. Of a pixel without
+    /// samples, black.
+    const FirstSamples* of(std::uint32_t n) const { return planes[n]->pixels; }
   };
   int tile_columns() const { return (width_ + tile_size - 1) / tile_size; }
   int tile_rows() const { return (height_ + tile_size - 1) / tile_size; }
@@ -135,6 +135,7 @@ class SampleStore {
   struct Prefix {
     glm::dvec3 sum{0.0};
     std::uint32_t count = 0;  // without the rejected ones
+    std::uint32_t rays = 0;
     std::uint32_t end = 0;
   };
 
@@ -157,7 +158,7 @@ class SampleStore {
   void clear(std::size_t pixel);
   void plan_pass(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end);
   void trace_batch(std::span<Job> jobs, const SampleSource& source);
-  void append_means(std::uint32_t pixel, std::span<const glm::vec3> samples);
+  void append_means(const SampleJob& made, std::uint32_t pixel);
   void finish_pass(double wall);
   std::size_t cell_of(std::uint32_t tile) const;
 
