@@ -104,6 +104,7 @@ TEST(RequestSlotThreads, ManyPutAndOneTakesTheLast) {
     }
   });
   std::vector<std::thread> putters;
+  putters.reserve(threads);
   for (int thread = 0; thread < threads; ++thread) {
     putters.emplace_back([&, thread] {
       std::uint64_t before = 0;

@@ -88,27 +88,22 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(CsvRecord, HasEveryNumberInItsColumn) {
   Snapshot snapshot = numbered_snapshot();
   const std::string scene = snapshot.scene->scene().name;
-  EXPECT_EQ(
-      lines_of(csv_record(snapshot)),
-      (std::vector<std::string>{
-          "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,metric,"
-          "value",
-          scene +
-              ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,31,6,3.000000,max_spp,2",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,31,6,3.000000,"
-                  "pilot_samples,3",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,1,0.500000,31,6,3.000000,"
-                  "refined_share,0.500000",
-          scene +
-              ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,52,10,5.000000,max_spp,4",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,52,10,5.000000,"
-                  "pilot_samples,5",
-          scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,2,1.250000,52,10,5.000000,"
-                  "refined_share,1.000000",
-          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,77,15,7.500000,max_spp,13",
-          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,77,15,7.500000,pilot_samples,0",
-          scene + ",kl,batch,reuse,0.0625,77,3,2.500000,77,15,7.500000,refined_share,0.000000",
-      }));
+  const std::string contrast = scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,";
+  const std::string kl = scene + ",kl,batch,reuse,0.0625,77,";
+  EXPECT_EQ(lines_of(csv_record(snapshot)),
+            (std::vector<std::string>{
+                ("scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,"
+                 "metric,value"),
+                contrast + "1,0.500000,31,6,3.000000,max_spp,2",
+                contrast + "1,0.500000,31,6,3.000000,pilot_samples,3",
+                contrast + "1,0.500000,31,6,3.000000,refined_share,0.500000",
+                contrast + "2,1.250000,52,10,5.000000,max_spp,4",
+                contrast + "2,1.250000,52,10,5.000000,pilot_samples,5",
+                contrast + "2,1.250000,52,10,5.000000,refined_share,1.000000",
+                kl + "3,2.500000,77,15,7.500000,max_spp,13",
+                kl + "3,2.500000,77,15,7.500000,pilot_samples,0",
+                kl + "3,2.500000,77,15,7.500000,refined_share,0.000000",
+            }));
 
   snapshot.reference = numbered_truth();
   std::vector<std::string> errors;

@@ -45,8 +45,8 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
   const std::string kl = scene + ",kl,converge,unbiased,0.25,";
   test::expect_lines(sweep_csv(report),
                      {
-                         "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,"
-                         "mean_spp,metric,value",
+                         ("scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,"
+                          "mean_spp,metric,value"),
                          uniform + "40,1,10.500000,14,11,10.250000,mse,12",
                          uniform + "40,1,10.500000,14,11,10.250000,flip,13",
                          uniform + "40,2,20.500000,24,21,20.250000,mse,22",

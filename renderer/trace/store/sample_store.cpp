@@ -288,14 +288,15 @@ std::uint64_t SampleStore::tile_work(int column, int row, std::span<const std::u
                                      std::span<const std::uint16_t> wanted) const {
   const auto width = std::size_t(width_);
   const Tile& tile = tiles_[std::size_t(row) * std::size_t(tile_columns()) + std::size_t(column)];
-  const std::size_t corner = std::size_t(row * tile_size) * width + std::size_t(column * tile_size);
+  const std::size_t corner = std::size_t(row) * std::size_t(tile_size) * width +
+                             std::size_t(column) * std::size_t(tile_size);
   const int columns = std::min(tile_size, width_ - column * tile_size);
   const int rows = std::min(tile_size, height_ - row * tile_size);
   std::uint64_t work = 0;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       const std::size_t pixel = corner + std::size_t(y) * width + std::size_t(x);
-      const std::size_t offset = std::size_t(y * tile_size + x);
+      const std::size_t offset = std::size_t(y) * std::size_t(tile_size) + std::size_t(x);
       const std::uint32_t count = wanted[pixel];
       const SamplePlane* const* planes = tile.samples.data() + (taken[pixel] - count - tile.base);
       work += count;
