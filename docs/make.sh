@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of the README anew, with the commands that stand beside them there. Run it when
-# what they show has changed. Some ten minutes on two cores; ./quartet builds first if it must.
+# what they show has changed. Three minutes on two cores; ./quartet builds first if it must.
 set -euo pipefail
 cd "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")"
 work=$(mktemp -d)
