@@ -319,9 +319,16 @@ void SampleStore::finish_pass(double wall) {
     }
   }
   const double seconds_per_tick = wall / std::max(total, 1.0);
+  std::uint32_t tile = 0;
+  std::size_t cell = cell_of(tile);
   for (const Job& job : jobs_) {
+    // Jobs come tile by tile, so that the cell is seldom looked for.
+    if (const std::uint32_t next = places_[job.pixel].tile; next != tile) {
+      tile = next;
+      cell = cell_of(tile);
+    }
     if (job.traced) {
-      costs_.add(cell_of(places_[job.pixel].tile), job.work, job.ticks * seconds_per_tick);
+      costs_.add(cell, job.work, job.ticks * seconds_per_tick);
     }
   }
   std::atomic<std::uint64_t> made = 0;
