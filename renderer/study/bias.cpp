@@ -136,8 +136,7 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
     // Both modes of a policy against the same uniform picture.
     const auto uniform_spp = [&](std::size_t lane) {
       const Lane& reuse = lab.lanes()[lane - lane % 2];
-      return std::uint32_t(
-          std::lround(double(reuse.history().back().samples) / double(reuse.film().size())));
+      return std::uint32_t(std::lround(mean_spp(reuse.history().back(), reuse.film().size())));
     };
     Uniform uniform;
     for (std::size_t i = 0; i < lanes.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "renderer/measure/metrics.h"
 #include "tests/session/session_cases.h"
+#include "tests/session/true_errors.h"
 
 namespace quartet {
 namespace {
@@ -34,14 +35,6 @@ std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
       errors[i].push_back(metric(request.lanes.metric)
                               .compute(lab.lanes()[i].film().image(), *request.lanes.reference));
     }
-  }
-  return errors;
-}
-
-std::vector<double> true_errors(const LaneSnapshot& lane) {
-  std::vector<double> errors;
-  for (const FrameRecord& record : lane.history) {
-    errors.push_back(record.true_error);
   }
   return errors;
 }

@@ -9,6 +9,7 @@
 
 #include "renderer/files/exr.h"
 #include "tests/files/temp_folder.h"
+#include "tests/session/true_errors.h"
 #include "tests/ui/lab_hand.h"
 
 namespace quartet {
@@ -91,26 +92,18 @@ TEST(Dock, MetricAndAxisAreChosen) {
   EXPECT_NE(hand.snapshot().lanes[2].history.back().true_error, relmse);
 }
 
-std::vector<double> true_errors(const LaneSnapshot& lane) {
-  std::vector<double> errors;
-  for (const FrameRecord& record : lane.history) {
-    errors.push_back(record.true_error);
-  }
-  return errors;
-}
-
 TEST(Dock, ADraggedThresholdMovesItsLanesCurveAlone) {
   MeasuredHand hand;
   std::vector<std::vector<double>> before;
   for (const LaneSnapshot& lane : hand.snapshot().lanes) {
-    before.push_back(true_errors(lane));
+    before.push_back(test::true_errors(lane));
   }
   const auto chart = hand.pixels("dock.chart");
   hand.drag("lane1.threshold0", -40.0f);
   hand.move(-100.0f, -100.0f);
   hand.settle();
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    EXPECT_EQ(true_errors(hand.snapshot().lanes[lane]) != before[lane], lane == 1);
+    EXPECT_EQ(test::true_errors(hand.snapshot().lanes[lane]) != before[lane], lane == 1);
   }
   EXPECT_NE(hand.pixels("dock.chart"), chart);
 }

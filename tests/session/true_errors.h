@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "renderer/adaptive/lane_snapshot.h"
+
+namespace quartet::test {
+
+/// Of each frame in a lane's history.
+inline std::vector<double> true_errors(const LaneSnapshot& lane) {
+  std::vector<double> errors;
+  for (const FrameRecord& record : lane.history) {
+    errors.push_back(record.true_error);
+  }
+  return errors;
+}
+
+}  // namespace quartet::test
