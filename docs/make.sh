@@ -10,7 +10,7 @@ docs=$PWD
 cd "$work"
 
 "$quartet" reference cornell-checker --size 480x270 --spp 512 -o ref.exr
-"$quartet" screenshot cornell-checker --render-size 480x270 --frames 15 --size 1600x1000 \
+"$quartet" screenshot cornell-checker --render-size 480x270 --passes 15 --size 1600x1000 \
   --reference ref.exr -o lab.png
 "$quartet" figure cornell-checker --size 480x270 --out out
 "$quartet" sweep cornell-checker --size 240x135 --thresholds 5 --seeds 3 --reference-spp 1024 \

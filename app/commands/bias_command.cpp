@@ -23,7 +23,7 @@ namespace {
 struct BiasOptions {
   RunOptions run;
   LaneOptions lanes;
-  std::uint32_t frames = 15;
+  std::uint32_t passes = 15;
   std::uint32_t seeds = 16;
   double confidence = 0.99;
   std::string out;
@@ -67,7 +67,7 @@ void check_bias_size(const RenderSettings& settings, std::size_t runs) {
 
 void run_bias(const BiasOptions& options, const Program& program) {
   const std::vector<SamplingPolicy> policies =
-      policies_of(options.lanes, options.run.policy, {.frames = options.frames});
+      policies_of(options.lanes, options.run.policy, {.passes = options.passes});
   for (const SamplingPolicy& policy : policies) {
     if (const Estimator& row = estimator(policy.estimator); row.needs_reference) {
       throw UsageError(fmt::format(
@@ -86,7 +86,7 @@ void run_bias(const BiasOptions& options, const Program& program) {
     const Interrupt interrupt;
     Progress progress("measuring bias");
     all = measure_bias(
-        run.scene, run.settings, policies, options.frames, options.seeds, run.lab,
+        run.scene, run.settings, policies, options.passes, options.seeds, run.lab,
         [&](double done) {
           progress.update(
               done, fmt::format("seed {} of {}",
@@ -98,7 +98,7 @@ void run_bias(const BiasOptions& options, const Program& program) {
       throw Interrupted();
     }
   }
-  const BiasReport report{run, all, options.frames, options.confidence, program.command_line};
+  const BiasReport report{run, all, options.passes, options.confidence, program.command_line};
   files.finish([&] { write_bias_files(files, report); });
   print_table(report);
   RejectedSamples rejected;
@@ -121,8 +121,7 @@ void add_bias_command(CLI::App& app, const Program& program) {
   add_run_options(*command, options->run);
   command->remove_option(command->get_option("--mode"));  // it runs both
   add_lane_options(*command, options->lanes);
-  add_number(*command, "--frames", options->frames, {1, 1'000'000},
-             "Rounds of sampling of each run");
+  add_number(*command, "--passes,--frames", options->passes, {1, 1'000'000}, "Passes of each run");
   add_seeds_option(*command, options->seeds, 2);
   add_number(*command, "--confidence", options->confidence, confidence_range,
              "Of all intervals together, such as 0.99");

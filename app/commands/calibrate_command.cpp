@@ -27,7 +27,7 @@ struct CalibrateOptions {
   RunOptions run;
   LaneOptions lanes;
   CommonBudget budget;
-  std::optional<std::uint32_t> frames;
+  std::optional<std::uint32_t> passes;
   std::string error;
   std::string reference;
   std::uint32_t reference_spp = 1024;
@@ -36,7 +36,7 @@ struct CalibrateOptions {
 
 CommonBudget budget_of(const CalibrateOptions& options) {
   CommonBudget budget = options.budget;
-  budget.frames = options.frames.value_or(budget.frames);
+  budget.passes = options.passes.value_or(budget.passes);
   if (!options.error.empty()) {
     budget.error = parse_error_target(options.error);
   }
@@ -77,8 +77,8 @@ std::string thresholds_of(const SamplingPolicy& policy) {
 }
 
 /// The words after "quartet figure SCENE" that show all of them side by side.
-std::string lane_words(const std::vector<Calibration>& found, std::uint32_t frames) {
-  std::string words = fmt::format("--frames {}", frames);
+std::string lane_words(const std::vector<Calibration>& found, std::uint32_t passes) {
+  std::string words = fmt::format("--passes {}", passes);
   for (const Calibration& each : found) {
     words += " --lane " + shell_word(lane_text(each.policy));
   }
@@ -123,12 +123,12 @@ std::string missing_text(const std::vector<Calibration>& found, const CommonBudg
 void print_table(const std::vector<Calibration>& found, const CommonBudget& budget,
                  const CalibrateOptions& options) {
   fmt::print("{:<22} {:>9} {:<30} {:>6} {:>9} {:>9}{}\n", "estimator", "factor", "thresholds",
-             "frames", "mean spp", "seconds",
+             "passes", "mean spp", "seconds",
              budget.error ? fmt::format(" {:>11}", metric(budget.error->metric).id) : "");
   for (const Calibration& each : found) {
     fmt::print("{:<22} {:>9.4g} {:<30} {:>6} {:>9.2f} {:>9.3f}{}\n",
                estimator(each.policy.estimator).label, each.factor, thresholds_of(each.policy),
-               each.result.record.frame, each.result.mean_spp, each.result.record.seconds,
+               each.result.record.pass, each.result.mean_spp, each.result.record.seconds,
                budget.error ? fmt::format(" {:>11.4g}", each.result.values.front()) : "");
   }
   for (const Calibration& each : found) {
@@ -142,7 +142,7 @@ void print_table(const std::vector<Calibration>& found, const CommonBudget& budg
   std::erase_if(comparable, [](const Calibration& each) { return !is_comparable(each); });
   if (!comparable.empty()) {
     fmt::print("quartet figure {} {} --out DIR{}\n", scene_words(options.run),
-               lane_words(comparable, budget.frames), missing_text(found, budget));
+               lane_words(comparable, budget.passes), missing_text(found, budget));
   }
 }
 
@@ -152,9 +152,9 @@ void check_use(const CalibrateOptions& options, std::span<const SamplingPolicy> 
   const auto has_threshold = [](const SamplingPolicy& policy) {
     return estimator(policy.estimator).channels > 0;
   };
-  if (options.frames && std::ranges::none_of(policies, has_threshold)) {
+  if (options.passes && std::ranges::none_of(policies, has_threshold)) {
     throw UsageError(
-        "--frames has no effect: without a threshold, as many frames are run as meet the budget");
+        "--passes has no effect: without a threshold, as many passes are run as meet the budget");
   }
   const auto needs_reference = [](const SamplingPolicy& policy) {
     return estimator(policy.estimator).needs_reference;
@@ -171,7 +171,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
   json["scene"] = run.scene->scene().name;
   json["command_line"] = command_line;
   json["budget"] = budget.text();
-  json["frames"] = budget.frames;
+  json["passes"] = budget.passes;
   json["estimators"] = nlohmann::ordered_json::array();
   for (const Calibration& each : found) {
     const Estimator& row = estimator(each.policy.estimator);
@@ -184,7 +184,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
     entry["factor"] = each.factor;
     entry["thresholds"] = std::vector<float>(each.policy.thresholds.begin(),
                                              each.policy.thresholds.begin() + row.channels);
-    entry["frames"] = each.result.record.frame;
+    entry["passes"] = each.result.record.pass;
     entry["mean_spp"] = each.result.mean_spp;
     entry["rays"] = each.result.record.rays;
     entry["seconds"] = each.result.record.seconds;
@@ -201,7 +201,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
 void run_calibrate(const CalibrateOptions& options, const Program& program) {
   const CommonBudget budget = budget_of(options);
   const std::vector<SamplingPolicy> policies =
-      policies_of(options.lanes, options.run.policy, {.frames = options.frames, .spp = budget.spp});
+      policies_of(options.lanes, options.run.policy, {.passes = options.passes, .spp = budget.spp});
   check_use(options, policies, budget);
   Run run = prepare_run(options.run, 1);
   run.lab.statistics = {};
@@ -244,20 +244,19 @@ void add_calibrate_command(CLI::App& app, const Program& program) {
   CLI::Option* const error =
       command->add_option("--error", options->error, "The same error, such as relmse=0.01")
           ->type_name("METRIC=VALUE");
-  add_number(
-      *command, "--frames", options->frames, {1, 10'000'000},
-      fmt::format("Rounds of sampling to take it in; {} if not given", CommonBudget().frames));
+  add_number(*command, "--passes,--frames", options->passes, {1, 10'000'000},
+             fmt::format("Passes to take it in; {} if not given", CommonBudget().passes));
   add_reference_option(*command, options->reference);
   add_reference_spp_option(*command, options->reference_spp)->needs(error);
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   command->footer(
       "All thresholds of an estimator are scaled by one factor, found by bisection over replays. "
-      "Under the\npolicy vote every pixel gets at least one sample a round, so that --frames "
+      "Under the\npolicy vote every pixel gets at least one sample a pass, so that --passes "
       "samples a pixel are the least.\n"
       "Exit status 1 if a lane cannot meet the goal; the command that is printed leaves it out.\n"
       "Examples:\n"
       "  quartet calibrate cornell-checker --spp 24\n"
-      "  quartet calibrate veach-plates --error relmse=0.01 --frames 30 --json");
+      "  quartet calibrate veach-plates --error relmse=0.01 --passes 30 --json");
   command->callback([options, &program] { run_calibrate(*options, program); });
 }
 

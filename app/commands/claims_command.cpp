@@ -19,7 +19,7 @@ namespace {
 
 struct ClaimsOptions {
   RunOptions run;
-  std::uint32_t frames = 15;
+  std::uint32_t passes = 15;
   std::uint32_t seeds = 5;
   std::string reference;
   std::uint32_t reference_spp = 512;
@@ -48,13 +48,13 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
     const Interrupt interrupt;
     Progress progress("claims");
     data = measure_claims(
-        world, region_of_pixel, options.frames, options.seeds, interrupt.token(),
+        world, region_of_pixel, options.passes, options.seeds, interrupt.token(),
         [&](double done, std::string_view detail) { progress.update(done, detail); });
   }
   if (!data) {
     throw Interrupted();
   }
-  const ClaimsReport report{run, *data, options.frames, reference->spp, program.command_line};
+  const ClaimsReport report{run, *data, options.passes, reference->spp, program.command_line};
   if (files) {
     files->finish([&] { files->write(csv.filename().string(), claims_csv(report)); });
   }
@@ -75,7 +75,7 @@ void add_claims_command(CLI::App& app, const Program& program) {
   add_memory_option(*command, options->run);
   command->get_option("scene")->required(false)->capture_default_str()->description(
       "The report's scene, or one with shapes of the same ids");
-  add_number(*command, "--frames", options->frames, {1, 10'000}, "Rounds of sampling");
+  add_number(*command, "--passes,--frames", options->passes, {1, 10'000}, "Passes of each run");
   add_seeds_option(*command, options->seeds);
   add_reference_option(*command, options->reference);
   add_reference_spp_option(*command, options->reference_spp);

@@ -32,12 +32,12 @@ struct FigureOptions {
 
 void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
   const Metric& row = metric(MetricId::relmse);
-  fmt::print("{:<22} {:>7} {:>9} {:>9} {:>9} {:>9}{}\n", "estimator", "frames", "mean spp",
+  fmt::print("{:<22} {:>7} {:>9} {:>9} {:>9} {:>9}{}\n", "estimator", "passes", "mean spp",
              "max spp", "seconds", "not done",
              snapshot.reference ? fmt::format(" {:>9}", row.label) : "");
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
-    const FrameRecord& last = lane.history.back();
+    const PassRecord& last = lane.history.back();
     const double pixels = double(snapshot.pixels());
     const std::string error =
         snapshot.reference ? fmt::format(" {:>9.3g}", row.compute(radiance_image(snapshot, i),
@@ -45,9 +45,8 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
                            : "";
     // Labels are UTF-8: fmt pads by what is seen.
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",
-               estimator(lane.policy.estimator).label, last.frame,
-               mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds,
-               100.0 * double(last.not_done) / pixels, error);
+               estimator(lane.policy.estimator).label, last.pass, mean_spp(last, snapshot.pixels()),
+               last.max_spp, last.seconds, 100.0 * double(last.not_done) / pixels, error);
   }
   fmt::print("images.png, images.pdf, heatmaps.png, heatmaps.pdf and the panels are in {}\n",
              out.string());
@@ -72,7 +71,7 @@ void run_figure(const FigureOptions& options, const Program& program) {
   StagedFiles files(options.out, lab_file_names(policies));
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
           run.lab);
-  Snapshot snapshot = run_to_end(lab, or_frames(stop), image_of(reference));
+  Snapshot snapshot = run_to_end(lab, or_passes(stop), image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
   files.finish([&] {
@@ -103,7 +102,7 @@ void add_figure_command(CLI::App& app, const Program& program) {
       "have the channel SquaredError, and panels.csv and panels.json every metric.\n"
       "Examples:\n"
       "  quartet figure cornell-checker --out out\n"
-      "  quartet figure veach-plates --frames 30 --size 480x270 --estimators contrast,uniform "
+      "  quartet figure veach-plates --passes 30 --size 480x270 --estimators contrast,uniform "
       "--heat report --out plates\n"
       "  quartet figure cornell-box --spp 24 --reference ref.exr --out box");
   command->callback([options, &program] { run_figure(*options, program); });

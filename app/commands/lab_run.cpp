@@ -19,9 +19,9 @@ void park(Lab& lab, std::size_t lane) {
   lab.set_policy(lane, nothing);
 }
 
-bool all_at_one_frame(const Lab& lab) {
+bool all_at_one_pass(const Lab& lab) {
   return std::ranges::all_of(lab.lanes(),
-                             [&](const Lane& lane) { return lane.frame() == lab.frame(); });
+                             [&](const Lane& lane) { return lane.pass() == lab.pass(); });
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ Snapshot run_to_end(Lab& lab, const StopConditions& stop,
   std::vector<LaneSnapshot> ends(count);
   Snapshot now;
   const bool finished = run_lab(lab, interrupt.token(), [&] {
-    if (!all_at_one_frame(lab)) {
+    if (!all_at_one_pass(lab)) {
       return true;  // parked lanes, which begin anew, catch up
     }
     double least = 1.0;
@@ -47,7 +47,7 @@ Snapshot run_to_end(Lab& lab, const StopConditions& stop,
         ending.push_back(i);
       }
     }
-    progress.update(least, fmt::format("frame {}", lab.frame()));
+    progress.update(least, fmt::format("pass {}", lab.pass()));
     if (ending.empty()) {
       return true;
     }

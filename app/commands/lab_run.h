@@ -8,8 +8,8 @@
 
 namespace quartet {
 
-/// Runs each lane to its own end, with a progress bar, and returns how each looked there; `frame`
-/// is that of the lane that ran longest. What it looks like with lanes at different frames is the
+/// Runs each lane to its own end, with a progress bar, and returns how each looked there; `pass`
+/// is that of the lane that ran longest. What it looks like with lanes at different passes is the
 /// lab's affair: it is of no use afterwards but for its store. Throws Interrupted.
 Snapshot run_to_end(Lab& lab, const StopConditions& stop,
                     std::shared_ptr<const RadianceImage> reference);

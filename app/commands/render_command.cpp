@@ -77,8 +77,8 @@ void check_render_output(const RenderOptions& options, const RenderSettings& set
 
 void print_summary(const std::filesystem::path& path, const Snapshot& snapshot,
                    const Reference* reference) {
-  const FrameRecord& last = snapshot.lanes[0].history.back();
-  fmt::print("{}: {} frames, mean {:.2f} spp, max {} spp, {:.2f} s", path.string(), last.frame,
+  const PassRecord& last = snapshot.lanes[0].history.back();
+  fmt::print("{}: {} passes, mean {:.2f} spp, max {} spp, {:.2f} s", path.string(), last.pass,
              mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds);
   if (reference != nullptr) {
     const Metric& row = metric(MetricId::relmse);
@@ -103,7 +103,7 @@ void run_render(const RenderOptions& options, const Program& program) {
   StagedFiles files(output.parent_path(), {output.filename().string()});
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height,
           std::span(&policy, 1), run.lab);
-  Snapshot snapshot = run_to_end(lab, or_frames(stop), image_of(reference));
+  Snapshot snapshot = run_to_end(lab, or_passes(stop), image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;
   files.finish([&] { write_output(output, program, snapshot, files); });
@@ -129,10 +129,10 @@ void add_render_command(CLI::App& app, const Program& program) {
   command->add_option("-o,--output", options->output, "A .exr with all channels, or a .png")
       ->required();
   command->footer(
-      "Stops at the first condition met; 15 frames if none is given. With --reference, an .exr\n"
+      "Stops at the first condition met; 15 passes if none is given. With --reference, an .exr\n"
       "also has the channel SquaredError.\n"
       "Examples:\n"
-      "  quartet render cornell-checker --estimator kl --threshold 0.005 --frames 15 -o kl.exr\n"
+      "  quartet render cornell-checker --estimator kl --threshold 0.005 --passes 15 -o kl.exr\n"
       "  quartet render cornell-box --spp 256 --size 512x512 -o box.png\n"
       "  quartet render cornell-box --error relmse=0.01 --seconds 60 --reference ref.exr -o "
       "box.exr");

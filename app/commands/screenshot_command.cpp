@@ -44,16 +44,16 @@ struct ScreenshotOptions {
   std::string output;
 };
 
-/// The window shows all lanes at one frame: the one where the last of them meets its end. Of
-/// anything but a number of frames it is known only once the lanes are past it: then the window
+/// The window shows all lanes at one pass: the one where the last of them meets its end. Of
+/// anything but a number of passes it is known only once the lanes are past it: then the window
 /// scrubs back to it, as a user would.
 class EndSeeker {
  public:
   EndSeeker(const StopConditions& stop, MetricId shown_metric, LabState& state)
       : stop_(stop), shown_metric_(shown_metric) {
-    if (stop.frames && !stop.spp && !stop.seconds && !stop.error) {
-      frame_ = stop.frames;
-      state.playback.set_target(*stop.frames);
+    if (stop.passes && !stop.spp && !stop.seconds && !stop.error) {
+      pass_ = stop.passes;
+      state.playback.set_target(*stop.passes);
       return;
     }
     // No further than this before the reference is there.
@@ -66,7 +66,7 @@ class EndSeeker {
   /// After each draw of the window.
   void look(LabDriver& driver) {
     LabState& state = driver.window().state();
-    if (frame_) {
+    if (pass_) {
       return;
     }
     if (state.playback.target() == 1) {
@@ -83,17 +83,17 @@ class EndSeeker {
       }
       last = std::max(last, *end);
     }
-    frame_ = last;
+    pass_ = last;
     state.playback.set_target(last);
     state.request.lanes.metric = shown_metric_;
   }
 
-  bool found() const { return frame_.has_value(); }
+  bool found() const { return pass_.has_value(); }
 
   /// How far the hindmost lane is, in [0, 1].
   double progress(const Snapshot& snapshot) const {
-    if (frame_) {
-      return std::min(1.0, double(snapshot.frame) / double(*frame_));
+    if (pass_) {
+      return std::min(1.0, double(snapshot.pass) / double(*pass_));
     }
     double least = 1.0;
     for (const LaneSnapshot& lane : snapshot.lanes) {
@@ -105,7 +105,7 @@ class EndSeeker {
  private:
   StopConditions stop_;
   MetricId shown_metric_;
-  std::optional<std::uint32_t> frame_;
+  std::optional<std::uint32_t> pass_;
 };
 
 /// "--views image or reference".
@@ -216,7 +216,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   // Throws if it is unfit.
   truth_for(state.request.lanes.policies, reference_at(options.reference, run));
   StagedFiles files(output.parent_path(), {output.filename().string()});
-  EndSeeker end(or_frames(stop), state.request.lanes.metric, state);
+  EndSeeker end(or_passes(stop), state.request.lanes.metric, state);
   Offscreen offscreen(size.width, size.height);
   ImguiScreen screen;
   ImGui::GetIO().DisplaySize = {float(size.width), float(size.height)};
@@ -243,13 +243,13 @@ void run_screenshot(const ScreenshotOptions& options) {
     if (driver.snapshot()) {
       end.look(driver);
       progress.update(end.progress(*driver.snapshot()),
-                      fmt::format("frame {}", driver.snapshot()->frame));
+                      fmt::format("pass {}", driver.snapshot()->pass));
     }
     if (const std::string error = driver.error(); !error.empty()) {
       throw std::runtime_error(error);
     }
   }
-  // The slider of frames ends where the lanes do, though they have been further.
+  // The slider of passes ends where the lanes do, though they have been further.
   driver.window().state().playback.forget();
   // What is idle says so, and what is laid out by its own size is in its place.
   for (int i = 0; i < 3; ++i) {
@@ -290,9 +290,9 @@ void add_screenshot_command(CLI::App& app, const Program&) {
                                   row_ids(metrics())));
   command->add_option("-o,--output", options->output, "A .png")->required();
   command->footer(
-      "All lanes are shown at the frame where the last of them meets its end.\n"
+      "All lanes are shown at the pass where the last of them meets its end.\n"
       "Examples:\n"
-      "  quartet screenshot cornell-checker --frames 15 --size 1600x1000 -o lab.png\n"
+      "  quartet screenshot cornell-checker --passes 15 --size 1600x1000 -o lab.png\n"
       "  quartet screenshot veach-plates --views error,difference --layout grid -o plates.png");
   command->callback([options] { run_screenshot(*options); });
 }

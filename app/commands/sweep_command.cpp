@@ -67,7 +67,7 @@ std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options,
     }
   }
   std::vector<SamplingPolicy> policies = policies_of(lanes, options.run.policy, stop);
-  // The baseline is in every sweep, with frames for its thresholds.
+  // The baseline is in every sweep, with passes for its thresholds.
   std::erase_if(policies, [](const SamplingPolicy& policy) {
     return estimator(policy.estimator).channels == 0;
   });
@@ -80,7 +80,7 @@ SweepPlan sweep_plan(const SweepOptions& options) {
   plan.stop = stop_conditions(options.stop, true);
   plan.policies = sweep_policies(options, plan.stop);
   // Beside what else is given.
-  plan.stop.frames = plan.stop.frames.value_or(15);
+  plan.stop.passes = plan.stop.passes.value_or(15);
   plan.stop.spp = plan.stop.spp.value_or(64.0);
   plan.metrics = {find_metric(options.metric).key};
   for (const MetricId id : {MetricId::relmse, MetricId::mse, MetricId::flip}) {
@@ -145,7 +145,7 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
     /// Runs it as far as the sweep did, and returns what that is charged with.
     double seconds(Experiment& experiment, std::stop_token stop) const {
       const auto run =
-          experiment.run({.policy = policy, .stop = {.frames = end.record.frame}}, stop);
+          experiment.run({.policy = policy, .stop = {.passes = end.record.pass}}, stop);
       if (!run) {
         throw Interrupted();
       }
@@ -257,10 +257,10 @@ void add_sweep_command(CLI::App& app, const Program& program) {
   add_out_option(*command, options->out);
   command->footer(
       "A point of a curve is where a run ends with the default thresholds times a factor: after "
-      "15 frames,\nor at 64 mean samples per pixel, unless told otherwise. Under the policy vote "
-      "every pixel gets at\nleast one sample a frame, so that the highest thresholds still cost "
-      "what uniform sampling of as many\nframes does. The baseline goes on until the cost limit, "
-      "whatever --frames says.\n"
+      "15 passes,\nor at 64 mean samples per pixel, unless told otherwise. Under the policy vote "
+      "every pixel gets at\nleast one sample a pass, so that the highest thresholds still cost "
+      "what uniform sampling of as many\npasses does. The baseline goes on until the cost limit, "
+      "whatever --passes says.\n"
       "Examples:\n"
       "  quartet sweep cornell-checker --size 480x270 --out sweep\n"
       "  quartet sweep veach-plates --estimators contrast,kl --thresholds 16 --seeds 5 "

@@ -126,7 +126,7 @@ PolicyWord max_spp_word() {
                 add_number(
                     command, "--max-spp", options.max_spp, max_spp_range,
                     fmt::format("No pixel gets more samples than this; {} if not given, or as "
-                                "many as --spp or --frames may take beyond that",
+                                "many as --spp or --passes may take beyond that",
                                 SamplingPolicy().max_spp));
               }};
 }
@@ -343,7 +343,7 @@ std::vector<SamplingPolicy> checked_policies(const PolicyOptions& options,
     check_word(row, options, lanes);
   }
   const std::uint32_t usual = SamplingPolicy().max_spp;
-  const bool more = stop.spp.value_or(0.0) > usual || stop.frames.value_or(0) > usual;
+  const bool more = stop.spp.value_or(0.0) > usual || stop.passes.value_or(0) > usual;
   std::vector<SamplingPolicy> policies;
   for (const ChosenLane& lane : lanes) {
     policies.push_back(lane.policy);

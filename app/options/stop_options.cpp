@@ -9,8 +9,8 @@
 namespace quartet {
 
 void add_stop_options(CLI::App& command, StopOptions& options) {
-  add_number(command, "--frames", options.frames, {1, 1u << 31},
-             "Stop after so many rounds of sampling; 15 if no other end is given");
+  add_number(command, "--passes,--frames", options.passes, {1, 1u << 31},
+             "Stop after so many passes; 15 if no other end is given");
   add_number(command, "--spp", options.spp, spp_range, "Stop at this mean of samples per pixel");
   add_number(command, "--rays", options.rays, above_zero<double>,
              "Stop at this mean of rays per pixel: an effort that is the same on every machine");
@@ -24,7 +24,7 @@ void add_stop_options(CLI::App& command, StopOptions& options) {
 }
 
 StopConditions stop_conditions(const StopOptions& options, bool has_reference) {
-  StopConditions stop{options.frames, options.spp, options.rays, options.seconds, {}};
+  StopConditions stop{options.passes, options.spp, options.rays, options.seconds, {}};
   if (!options.error.empty()) {
     try {
       stop.error = parse_error_target(options.error);
@@ -47,9 +47,9 @@ void check_rays(const StopConditions& stop, const Scene& scene) {
   }
 }
 
-StopConditions or_frames(StopConditions stop) {
+StopConditions or_passes(StopConditions stop) {
   if (!stop.any()) {
-    stop.frames = 15;
+    stop.passes = 15;
   }
   return stop;
 }

@@ -15,14 +15,14 @@ inline constexpr NumberRange<double> spp_range{1e-30, double(most_spp)};
 
 /// When a command has sampled enough, as given.
 struct StopOptions {
-  std::optional<std::uint32_t> frames;
+  std::optional<std::uint32_t> passes;
   std::optional<double> spp;
   std::optional<double> rays;
   std::optional<double> seconds;
   std::string error;
 };
 
-/// Adds --frames, --spp, --rays, --seconds and --error, which can be combined.
+/// Adds --passes, --spp, --rays, --seconds and --error, which can be combined.
 void add_stop_options(CLI::App& command, StopOptions& options);
 
 /// As the options say: the first condition met ends a lane. Throws UsageError for an error target
@@ -33,7 +33,7 @@ StopConditions stop_conditions(const StopOptions& options, bool has_reference);
 /// drawn and not traced.
 void check_rays(const StopConditions& stop, const Scene& scene);
 
-/// Without any condition, the 15 frames of the 2021 report.
-StopConditions or_frames(StopConditions stop);
+/// Without any condition, the 15 passes of the 2021 report.
+StopConditions or_passes(StopConditions stop);
 
 }  // namespace quartet

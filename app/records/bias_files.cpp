@@ -47,8 +47,8 @@ double common_end(const std::vector<BiasRuns>& all) {
 Figure figure_of(const BiasReport& report) {
   Figure figure;
   figure.title =
-      fmt::format("Bias in {}: mean of {} runs of {} frames less uniform sampling",
-                  report.run.scene->scene().name, report.runs.front().energy.size(), report.frames);
+      fmt::format("Bias in {}: mean of {} runs of {} passes less uniform sampling",
+                  report.run.scene->scene().name, report.runs.front().energy.size(), report.passes);
   figure.columns = 2;
   const double end = common_end(report.runs);
   figure.shared_bar =
@@ -79,13 +79,13 @@ std::string csv_of(const BiasReport& report) {
     const double pixels = double(runs.difference.size());
     for (std::size_t k = 0; k < runs.energy.size(); ++k) {
       csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,
-                         report.run.settings.seed + k, report.frames, runs.seconds[k],
+                         report.run.settings.seed + k, report.passes, runs.seconds[k],
                          runs.mean_rays[k] * pixels, runs.mean_spp[k] * pixels, runs.mean_spp[k],
                          runs.energy[k]);
     }
     const Interval energy = mean_interval(runs.energy, each_rate(report));
     const auto row = [&](std::string_view metric, double value) {
-      csv += fmt::format("{},all,{},{:.6f},{:.0f},{:.0f},{:.6f},{},{:.9g}\n", lane, report.frames,
+      csv += fmt::format("{},all,{},{:.6f},{:.0f},{:.0f},{:.6f},{},{:.9g}\n", lane, report.passes,
                          mean_of(runs.seconds), mean_of(runs.mean_rays) * pixels,
                          mean_of(runs.mean_spp) * pixels, mean_of(runs.mean_spp), metric, value);
     };

@@ -18,7 +18,7 @@ inline std::vector<std::string> bias_file_names() {
 struct BiasReport {
   const Run& run;
   const std::vector<BiasRuns>& runs;
-  std::uint32_t frames = 15;  ///< of each run
+  std::uint32_t passes = 15;  ///< of each run
   double confidence = 0.99;   ///< of all intervals together
   std::string command_line;
 };

@@ -162,9 +162,9 @@ std::string claims_text(const ClaimsReport& report) {
   const std::vector<Quantity> all = quantities(report);
   const std::size_t seeds = report.data.seeds.size();
   std::string text = fmt::format(
-      "{}, {}x{}, {} frames, {} seed{}, 95 % intervals over the seeds{}; reference of {} spp\n\n",
+      "{}, {}x{}, {} passes, {} seed{}, 95 % intervals over the seeds{}; reference of {} spp\n\n",
       report.run.scene->scene().name, report.run.settings.width, report.run.settings.height,
-      report.frames, seeds, seeds == 1 ? "" : "s", seeds == 1 ? " (one seed has none)" : "",
+      report.passes, seeds, seeds == 1 ? "" : "s", seeds == 1 ? " (one seed has none)" : "",
       report.reference_spp);
   add_region_tables(all, text);
   add_totals(all, text);
@@ -185,7 +185,7 @@ std::string claims_json(const ClaimsReport& report) {
   json["scene"] = report.run.scene->scene().name;
   json["width"] = report.run.settings.width;
   json["height"] = report.run.settings.height;
-  json["frames"] = report.frames;
+  json["passes"] = report.passes;
   json["seeds"] = report.data.seeds.size();
   json["reference_spp"] = report.reference_spp;
   json["command_line"] = report.command_line;

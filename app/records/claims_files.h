@@ -11,7 +11,7 @@ namespace quartet {
 struct ClaimsReport {
   const Run& run;
   const ClaimData& data;
-  std::uint32_t frames = 15;
+  std::uint32_t passes = 15;
   std::uint64_t reference_spp = 0;
   std::string command_line;
 };

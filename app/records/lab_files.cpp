@@ -15,13 +15,13 @@
 namespace quartet {
 namespace {
 
-/// "15", or "8 to 15" where lanes ended at different frames.
-std::string frames_text(const Snapshot& snapshot) {
-  const auto frames = [](const LaneSnapshot& lane) {
-    return lane.history.empty() ? 0 : lane.history.back().frame;
+/// "15", or "8 to 15" where lanes ended at different passes.
+std::string passes_text(const Snapshot& snapshot) {
+  const auto passes = [](const LaneSnapshot& lane) {
+    return lane.history.empty() ? 0 : lane.history.back().pass;
   };
-  const std::uint32_t first = frames(*std::ranges::min_element(snapshot.lanes, {}, frames));
-  const std::uint32_t last = frames(*std::ranges::max_element(snapshot.lanes, {}, frames));
+  const std::uint32_t first = passes(*std::ranges::min_element(snapshot.lanes, {}, passes));
+  const std::uint32_t last = passes(*std::ranges::max_element(snapshot.lanes, {}, passes));
   return first == last ? fmt::format("{}", last) : fmt::format("{} to {}", first, last);
 }
 
@@ -53,8 +53,8 @@ std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies
 void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSettings& view,
                      const std::string& command_line, const std::optional<RunCost>& cost,
                      const Reference* reference, const std::stop_token& stop) {
-  const std::string title = fmt::format("{}, {} frames at {}×{}", snapshot.scene->scene().name,
-                                        frames_text(snapshot), snapshot.width, snapshot.height);
+  const std::string title = fmt::format("{}, {} passes at {}×{}", snapshot.scene->scene().name,
+                                        passes_text(snapshot), snapshot.width, snapshot.height);
   const std::string footer = fmt::format("quartet {} · {}", version(), command_line);
   const Figure images = image_figure(snapshot, view, title, footer);
   write_figure_png(images, files.stage("images.png"));

@@ -15,7 +15,7 @@ namespace quartet {
 /// The names of all that write_lab_files writes.
 std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies);
 
-/// Everything that is saved of lanes at a frame, by the command line and by the window: the two
+/// Everything that is saved of lanes at a pass, by the command line and by the window: the two
 /// figures (images and heatmaps, PNG and PDF), each lane's EXR, PNG and heatmap, panels.csv and
 /// panels.json. EXR and JSON hold files.run(). `reference` says where that of the snapshot comes
 /// from, if that is known. Throws Cancelled between two files once `stop` is asked for.

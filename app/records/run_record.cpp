@@ -106,7 +106,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
   const LaneSnapshot& shown = snapshot.lanes[lane];
   ordered_json settings = settings_json(snapshot.settings);
   settings["policy"] = policy_json(shown.policy);
-  settings["frames"] = shown.history.empty() ? 0 : shown.history.back().frame;
+  settings["passes"] = shown.history.empty() ? 0 : shown.history.back().pass;
   std::map<std::string, std::string> attributes{
       {"scene", snapshot.scene->scene().name},
       {"settings", settings.dump()},
@@ -160,8 +160,8 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
     entry["rejected"] =
         std::accumulate(lane.rejected.begin(), lane.rejected.end(), std::uint64_t(0));
     entry["history"] = ordered_json::array();
-    for (const FrameRecord& record : lane.history) {
-      entry["history"].push_back({{"frame", record.frame},
+    for (const PassRecord& record : lane.history) {
+      entry["history"].push_back({{"pass", record.pass},
                                   {"samples", record.samples},
                                   {"pilot_samples", record.pilot_samples},
                                   {"mean_spp", mean_spp(record, snapshot.pixels())},
@@ -195,11 +195,11 @@ std::string csv_record(const Snapshot& snapshot) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     const SamplingPolicy& policy = lane.policy;
     std::string row;
-    for (const FrameRecord& record : lane.history) {
+    for (const PassRecord& record : lane.history) {
       row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{},{:.6f}", scene,
                         estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
                         sample_use(policy.use).id, thresholds_text(policy), snapshot.settings.seed,
-                        record.frame, record.seconds, record.rays, record.samples,
+                        record.pass, record.seconds, record.rays, record.samples,
                         mean_spp(record, snapshot.pixels()));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},pilot_samples,{}\n", row, record.pilot_samples);

@@ -17,7 +17,7 @@ std::string_view id_of(Tuning tuning) {
 
 std::string trials_csv(const StabilityOptions& options, std::span<const CaseResult> results) {
   std::string csv =
-      "case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,seconds,rays,"
+      "case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,pass,seconds,rays,"
       "samples,"
       "mean_spp,metric,value\n";
   for (const CaseResult& result : results) {
@@ -30,7 +30,7 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
           result.failure->scene, estimator(trial.policy.estimator).id,
           allocation(options.allocation).id, sample_use(trial.policy.use).id, id_of(trial.tuning),
           variations()[std::size_t(trial.variation)].id, thresholds_text(trial.policy), trial.seed,
-          trial.frames, outcome.seconds, outcome.mean_rays * pixels, outcome.mean_spp * pixels,
+          trial.passes, outcome.seconds, outcome.mean_rays * pixels, outcome.mean_spp * pixels,
           outcome.mean_spp);
       for (const OutcomeColumn& column : outcome_columns()) {
         const double value = outcome.*column.value;

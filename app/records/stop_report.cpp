@@ -13,11 +13,11 @@
 namespace quartet {
 namespace {
 
-/// "--frames 30 or --spp 64".
+/// "--passes 30 or --spp 64".
 std::string conditions_text(const StopConditions& stop) {
   std::vector<std::string> texts;
-  if (stop.frames) {
-    texts.push_back(fmt::format("--frames {}", *stop.frames));
+  if (stop.passes) {
+    texts.push_back(fmt::format("--passes {}", *stop.passes));
   }
   if (stop.spp) {
     texts.push_back(fmt::format("--spp {:g}", *stop.spp));
@@ -58,9 +58,9 @@ void tell_if_short(const Snapshot& snapshot, const StopConditions& given) {
   for (const LaneSnapshot& lane : snapshot.lanes) {
     const CappedPixels capped = capped_pixels(lane.taken, lane.policy);
     if (lane.plan.total == 0 && given.any() && !is_met(given, snapshot, lane)) {
-      const FrameRecord& last = lane.history.back();
-      tell("{} ended after {} frames, at {:.2f} mean spp, before {}: {}",
-           estimator(lane.policy.estimator).id, last.frame, mean_spp(last, snapshot.pixels()),
+      const PassRecord& last = lane.history.back();
+      tell("{} ended after {} passes, at {:.2f} mean spp, before {}: {}",
+           estimator(lane.policy.estimator).id, last.pass, mean_spp(last, snapshot.pixels()),
            conditions_text(given),
            capped.count > 0 ? fmt::format("no pixel may have another sample; {} of {} have the {} "
                                           "that --max-spp allows",

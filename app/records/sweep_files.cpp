@@ -21,8 +21,8 @@ std::string row_head(const SweepReport& report, const SamplingPolicy& policy, st
 
 std::string measurement_head(const SweepReport& report, const SamplingPolicy& policy,
                              std::uint64_t seed, const Measurement& measurement) {
-  const FrameRecord& record = measurement.record;
-  return fmt::format("{},{},{:.6f},{},{},{:.6f}", row_head(report, policy, seed), record.frame,
+  const PassRecord& record = measurement.record;
+  return fmt::format("{},{},{:.6f},{},{},{:.6f}", row_head(report, policy, seed), record.pass,
                      record.seconds, record.rays, record.samples, measurement.mean_spp);
 }
 
@@ -37,8 +37,8 @@ void add_metrics(const SweepReport& report, const std::string& head, const Measu
 std::string stop_text(const StopConditions& stop) {
   std::string text;
   const auto add = [&](const std::string& word) { text += (text.empty() ? "" : " or ") + word; };
-  if (stop.frames) {
-    add(fmt::format("{} frames", *stop.frames));
+  if (stop.passes) {
+    add(fmt::format("{} passes", *stop.passes));
   }
   if (stop.spp) {
     add(fmt::format("{:g} mean spp", *stop.spp));

@@ -27,7 +27,7 @@ struct SweepReport {
 
 /// Long form, one row a measurement: see csv_header. Of each run's end every metric and the quality
 /// of its estimator (rank_correlation, false_stops, oracle_distance; a row less where there is no
-/// such number); of the uniform baseline the frames that were measured.
+/// such number); of the uniform baseline the passes that were measured.
 std::string sweep_csv(const SweepReport& report);
 
 /// The calibration curves of all runs: scene, estimator, policy, mode, thresholds, seed,

@@ -220,7 +220,7 @@ void LabDriver::equalise(const EqualiseOrder& order) {
   const LabRequest& wanted = window_.state().request;
   EqualiseRequest request{wanted.store, wanted.lanes.policies, {}, wanted.lanes.reference};
   request.store.memory /= 2;
-  request.budget.frames = order.frames;
+  request.budget.passes = order.passes;
   request.budget.spp = order.spp;
   request.budget.seconds = order.seconds;
   if (order.error) {
@@ -299,7 +299,7 @@ std::optional<RejectedSample> LabDriver::rejected() const {
 bool LabDriver::settled() const {
   const bool lanes = !loader_.busy() && !exports_.busy() && window_.state().request == submitted_ &&
                      snapshot_ && snapshot_->request == request_ &&
-                     snapshot_->frame >= submitted_.lanes.frame;
+                     snapshot_->pass >= submitted_.lanes.pass;
   if (!lanes || reference_request_ == 0) {
     return lanes;
   }

@@ -51,7 +51,7 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
                                 const std::filesystem::path& reference) {
   const RenderSettings& settings = snapshot.settings;
   std::string command = "quartet figure " + shell_word(scene);
-  command += fmt::format(" --frames {} --size {}x{} --seed {}", snapshot.frame, settings.width,
+  command += fmt::format(" --passes {} --size {}x{} --seed {}", snapshot.pass, settings.width,
                          settings.height, settings.seed);
   // What draws its samples has no paths and no camera, and its command no options for them.
   const Scene& traced = snapshot.scene->scene();

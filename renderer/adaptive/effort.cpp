@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array effort_table{
     EffortRow{Effort::seconds, "seconds", "seconds, as if alone",
-              [](const FrameRecord& record, std::size_t) { return record.seconds; }},
+              [](const PassRecord& record, std::size_t) { return record.seconds; }},
     EffortRow{Effort::rays, "rays", "rays per pixel, mean", mean_rays},
     EffortRow{Effort::mean_spp, "spp", "samples per pixel, mean", mean_spp},
 };
@@ -28,11 +28,11 @@ const EffortRow& find_effort(std::string_view id) {
   return find_row(efforts(), id, "axis");
 }
 
-double mean_spp(const FrameRecord& record, std::size_t pixels) {
+double mean_spp(const PassRecord& record, std::size_t pixels) {
   return double(record.samples) / double(pixels);
 }
 
-double mean_rays(const FrameRecord& record, std::size_t pixels) {
+double mean_rays(const PassRecord& record, std::size_t pixels) {
   return double(record.rays) / double(pixels);
 }
 

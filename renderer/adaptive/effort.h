@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "renderer/adaptive/frame_history.h"
+#include "renderer/adaptive/pass_history.h"
 
 namespace quartet {
 
@@ -20,7 +20,7 @@ struct EffortRow {
   Effort key;
   std::string_view id;     ///< in files
   std::string_view label;  ///< for people, with the unit
-  double (*of)(const FrameRecord& record, std::size_t pixels);
+  double (*of)(const PassRecord& record, std::size_t pixels);
 };
 
 std::span<const EffortRow> efforts();
@@ -29,8 +29,8 @@ const EffortRow& effort_row(Effort key);
 const EffortRow& find_effort(std::string_view id);
 
 /// Samples a pixel has taken in the mean, those of a pilot run included.
-double mean_spp(const FrameRecord& record, std::size_t pixels);
+double mean_spp(const PassRecord& record, std::size_t pixels);
 /// Rays that a pixel's samples have taken in the mean, those of a pilot run included.
-double mean_rays(const FrameRecord& record, std::size_t pixels);
+double mean_rays(const PassRecord& record, std::size_t pixels);
 
 }  // namespace quartet

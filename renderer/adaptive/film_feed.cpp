@@ -18,7 +18,7 @@ std::size_t first_pixel(const Film& film, const SampleStore::TileMeans& tile, in
 
 /// Looks up a tile of which some sample was rejected: the newly taken ones must be looked at.
 /// Returns the work of all.
-std::uint64_t look_up_with_rejected(Film& film, const FrameSamples& frame,
+std::uint64_t look_up_with_rejected(Film& film, const PassSamples& pass,
                                     const SampleStore::TileMeans& tile) {
   std::vector<glm::vec3> samples;
   std::uint64_t work = 0;
@@ -26,9 +26,9 @@ std::uint64_t look_up_with_rejected(Film& film, const FrameSamples& frame,
     const std::size_t first = first_pixel(film, tile, y);
     for (int x = 0; x < tile.columns; ++x) {
       const std::size_t pixel = first + std::size_t(x);
-      const std::uint32_t taken = frame.taken[pixel];
-      samples.resize(frame.wanted[pixel]);
-      frame.store.read(pixel, taken - frame.wanted[pixel], samples);
+      const std::uint32_t taken = pass.taken[pixel];
+      samples.resize(pass.wanted[pixel]);
+      pass.store.read(pixel, taken - pass.wanted[pixel], samples);
       film.reject(pixel, samples);
       const FirstSamples& first_samples = tile.of(taken)[y * SampleStore::tile_size + x];
       film.put(pixel, taken - film.rejected()[pixel], first_samples.mean);
@@ -49,15 +49,15 @@ bool looks_up(const Film& film, const SampleStore& store) {
 }
 
 /// Reads the means of all samples taken, one tile after the other as they lie in memory.
-void look_up(Film& film, const FrameSamples& frame, int tile_row, std::span<std::uint64_t> cells) {
+void look_up(Film& film, const PassSamples& pass, int tile_row, std::span<std::uint64_t> cells) {
   // Asked for this many tiles ahead, means have come when they are wanted, and so have the places
   // that they go to; else a replay does little but wait for memory. Into the second-level cache,
   // which waits for more lines at a time than the first does.
   constexpr int ahead = 4;
   constexpr int second_level = 2;
   constexpr int side = SampleStore::tile_size;
-  const SampleStore& store = frame.store;
-  const std::uint32_t* taken = frame.taken.data();
+  const SampleStore& store = pass.store;
+  const std::uint32_t* taken = pass.taken.data();
   for (int column = -ahead; column < store.tile_columns(); ++column) {
     if (column + ahead < store.tile_columns()) {
       const SampleStore::TileMeans tile = store.tile_means(column + ahead, tile_row);
@@ -75,7 +75,7 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row, std::span<std:
     }
     const SampleStore::TileMeans tile = store.tile_means(column, tile_row);
     if (tile.rejected) {
-      cells[cell_of(store, column)] += look_up_with_rejected(film, frame, tile);
+      cells[cell_of(store, column)] += look_up_with_rejected(film, pass, tile);
       continue;
     }
     std::uint64_t work = 0;
@@ -92,31 +92,30 @@ void look_up(Film& film, const FrameSamples& frame, int tile_row, std::span<std:
   }
 }
 
-void accumulate(Film& film, const FrameSamples& frame, int tile_row,
-                std::span<std::uint64_t> cells) {
+void accumulate(Film& film, const PassSamples& pass, int tile_row, std::span<std::uint64_t> cells) {
   // As above.
   constexpr std::size_t ahead = 32;
   const std::size_t row = SampleStore::tile_size * std::size_t(film.width());
   const std::size_t begin = std::size_t(tile_row) * row;
   const std::size_t end = std::min(begin + row, film.size());
-  const std::span<const std::uint32_t> pixels = frame.store.pixels();
+  const std::span<const std::uint32_t> pixels = pass.store.pixels();
   std::vector<glm::vec3> samples;
   for (std::size_t i = begin; i < end; ++i) {
     if (i + ahead < end) {
       const std::uint32_t later = pixels[i + ahead];
-      const std::uint32_t wanted = frame.wanted[later];
-      frame.store.prefetch(later, frame.taken[later] - wanted, wanted);
+      const std::uint32_t wanted = pass.wanted[later];
+      pass.store.prefetch(later, pass.taken[later] - wanted, wanted);
     }
     const std::uint32_t pixel = pixels[i];
-    if (const std::uint32_t wanted = frame.wanted[pixel]; wanted > 0) {
+    if (const std::uint32_t wanted = pass.wanted[pixel]; wanted > 0) {
       samples.resize(wanted);
-      frame.store.read(pixel, frame.taken[pixel] - wanted, samples);
+      pass.store.read(pixel, pass.taken[pixel] - wanted, samples);
       film.add(pixel, samples);
     }
   }
-  for (int column = 0; column < frame.store.tile_columns(); ++column) {
-    cells[cell_of(frame.store, column)] +=
-        frame.store.tile_work(column, tile_row, frame.taken, frame.wanted);
+  for (int column = 0; column < pass.store.tile_columns(); ++column) {
+    cells[cell_of(pass.store, column)] +=
+        pass.store.tile_work(column, tile_row, pass.taken, pass.wanted);
   }
 }
 

@@ -66,10 +66,10 @@ bool Lab::takes_from(const Lane& lane, const Stream& stream) const {
   return &stream == &shown_ || lane.policy().use == SampleUse::unbiased;
 }
 
-std::uint32_t Lab::frame() const {
-  std::uint32_t behind = lanes_.empty() ? 0 : lanes_.front().frame();
+std::uint32_t Lab::pass() const {
+  std::uint32_t behind = lanes_.empty() ? 0 : lanes_.front().pass();
   for (const Lane& lane : lanes_) {
-    behind = std::min(behind, lane.frame());
+    behind = std::min(behind, lane.pass());
   }
   return behind;
 }
@@ -86,8 +86,8 @@ bool Lab::partial() const {
   return shown_.store.partial() || (pilot_ && pilot_->store.partial());
 }
 
-bool Lab::run_frame(std::stop_token stop) {
-  const std::uint32_t behind = frame();
+bool Lab::run_pass(std::stop_token stop) {
+  const std::uint32_t behind = pass();
   bool finished = false;
   arena_.execute([&] {
     finished = trace(shown_, behind, stop) && (!pilot_ || trace(*pilot_, behind, stop));
@@ -104,12 +104,12 @@ bool Lab::run_frame(std::stop_token stop) {
   return finished;
 }
 
-/// Advances the lanes at a frame, whose samples the stores hold.
-void Lab::advance(std::uint32_t frame) {
+/// Advances the lanes at a pass, whose samples the stores hold.
+void Lab::advance(std::uint32_t pass) {
   std::vector<Lane*> moving;
   for (Lane& lane : lanes_) {
-    if (lane.frame() == frame) {
-      lane.begin_frame(stores());
+    if (lane.pass() == pass) {
+      lane.begin_pass(stores());
       moving.push_back(&lane);
     }
   }
@@ -127,7 +127,7 @@ void Lab::advance(std::uint32_t frame) {
   const double took = watch.seconds();
   // One after the other, each on all threads: a lane's own time is then what it would be alone.
   for (Lane* lane : moving) {
-    lane->end_frame(took / double(moving.size()));
+    lane->end_pass(took / double(moving.size()));
   }
 }
 
@@ -145,10 +145,10 @@ void Lab::charge() {
   }
 }
 
-/// Traces what a store lacks for the lanes at a frame.
-bool Lab::trace(Stream& stream, std::uint32_t frame, std::stop_token stop) {
+/// Traces what a store lacks for the lanes at a pass.
+bool Lab::trace(Stream& stream, std::uint32_t pass, std::stop_token stop) {
   const auto moves = [&](const Lane& lane) {
-    return lane.frame() == frame && takes_from(lane, stream);
+    return lane.pass() == pass && takes_from(lane, stream);
   };
   const auto lacking = [&](const Lane& lane) {
     return moves(lane) && !stream.store.holds(lane.taken(), lane.plan().wanted);
@@ -237,7 +237,7 @@ void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics sta
 
 void Lab::measure(const std::function<double(const Film&)>& error_of) {
   for (Lane& lane : lanes_) {
-    if (lane.frame() > 0 && std::isnan(lane.history().back().true_error)) {
+    if (lane.pass() > 0 && std::isnan(lane.history().back().true_error)) {
       lane.set_true_error(error_of(lane.film()));
     }
   }
@@ -249,9 +249,9 @@ void Lab::forget_true_errors() {
   }
 }
 
-void Lab::rewind_past(std::uint32_t frame) {
+void Lab::rewind_past(std::uint32_t pass) {
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    if (lanes_[i].frame() > frame) {
+    if (lanes_[i].pass() > pass) {
       set_policy(i, SamplingPolicy(lanes_[i].policy()));
     }
   }

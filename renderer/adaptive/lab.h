@@ -39,8 +39,8 @@ class Lab {
   const SampleStore& store() const { return shown_.store; }
   /// Null if no lane has had a pilot run.
   const SampleStore* pilot_store() const { return pilot_ ? &pilot_->store : nullptr; }
-  /// The frame that the lanes furthest behind have finished.
-  std::uint32_t frame() const;
+  /// The pass that the lanes furthest behind have finished.
+  std::uint32_t pass() const;
   /// The threads it works on, for what others make of its lanes.
   tbb::task_arena& threads() const { return arena_; }
 
@@ -50,16 +50,16 @@ class Lab {
   /// Whether samples were ever forgotten, so that a replay must trace them again.
   bool partial() const;
 
-  /// Advances the lanes that are furthest behind by one frame, tracing what the stores lack.
+  /// Advances the lanes that are furthest behind by one pass, tracing what the stores lack.
   /// Returns false if `stop` ended it early: then no lane has moved, and what was traced is kept. A
   /// store without samples is filled with its first ones whatever `stop` says.
-  bool run_frame(std::stop_token stop = {});
+  bool run_pass(std::stop_token stop = {});
 
-  /// Gives a lane another policy: it starts again at frame 0, out of stored samples.
+  /// Gives a lane another policy: it starts again at pass 0, out of stored samples.
   void set_policy(std::size_t lane, const SamplingPolicy& policy);
 
   /// Gives the lab these lanes. One whose policy and statistics stay as they are, and whose
-  /// reference does if it needs one, keeps its frame; the others start again at frame 0, out of
+  /// reference does if it needs one, keeps its pass; the others start again at pass 0, out of
   /// stored samples.
   void set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics,
                  std::shared_ptr<const RadianceImage> reference = nullptr);
@@ -68,8 +68,8 @@ class Lab {
   void measure(const std::function<double(const Film&)>& error_of);
   void forget_true_errors();
 
-  /// Back to frame 0, for all lanes that are past `frame`; the stores are kept.
-  void rewind_past(std::uint32_t frame);
+  /// Back to pass 0, for all lanes that are past `pass`; the stores are kept.
+  void rewind_past(std::uint32_t pass);
 
  private:
   /// Where samples come from, and where they are kept.
@@ -84,8 +84,8 @@ class Lab {
   LaneInputs lane_inputs() const { return {options_.statistics, options_.reference}; }
   bool takes_from(const Lane& lane, const Stream& stream) const;
 
-  void advance(std::uint32_t frame);
-  bool trace(Stream& stream, std::uint32_t frame, std::stop_token stop);
+  void advance(std::uint32_t pass);
+  bool trace(Stream& stream, std::uint32_t pass, std::stop_token stop);
   void forget(Stream& stream);
   void charge();
 
@@ -94,7 +94,7 @@ class Lab {
   std::optional<Stream> pilot_;
   std::vector<Lane> lanes_;
   SampleCosts charged_by_;  // what all records of all lanes are charged by
-  // Samples that a frame needs, first and past the last of each pixel.
+  // Samples that a pass needs, first and past the last of each pixel.
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> end_;
   mutable tbb::task_arena arena_;

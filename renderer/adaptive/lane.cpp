@@ -16,19 +16,19 @@ FilmStatistics shown_statistics(const SamplingPolicy& policy, const LaneInputs& 
                                            : inputs.statistics | estimator(policy.estimator).needs;
 }
 
-/// Whether this frame is looked up; else the film is made ready to add.
-bool begin_film(Film& film, const SampleStore& store, std::uint32_t frame) {
+/// Whether this pass is looked up; else the film is made ready to add.
+bool begin_film(Film& film, const SampleStore& store, std::uint32_t pass) {
   if (looks_up(film, store)) {
     return true;
   }
   // What was looked up before must have been summed up.
-  assert(film.has_sums() || frame == 0);
-  static_cast<void>(frame);
+  assert(film.has_sums() || pass == 0);
+  static_cast<void>(pass);
   film.keep_sums();
   return false;
 }
 
-void take_row(Film& film, const FrameSamples& samples, int tile_row, bool looks_up_store,
+void take_row(Film& film, const PassSamples& samples, int tile_row, bool looks_up_store,
               SampleCosts::Work& work) {
   const auto rows = std::size_t(samples.store.tile_rows());
   const std::size_t first = SampleCosts::side * SampleCosts::cell(std::size_t(tile_row), rows);
@@ -68,12 +68,12 @@ void Lane::restart(const SamplingPolicy& policy, const LaneInputs& inputs) {
   replan(0);
 }
 
-void Lane::begin_frame(const LaneStores& stores) {
+void Lane::begin_pass(const LaneStores& stores) {
   const Stopwatch watch;
   rows_.assign(std::size_t(stores.shown.tile_rows()), {});
-  looks_up_shown_ = begin_film(film_, stores.shown, frame());
+  looks_up_shown_ = begin_film(film_, stores.shown, pass());
   if (pilot_) {
-    looks_up_pilot_ = begin_film(*pilot_, *stores.pilot, frame());
+    looks_up_pilot_ = begin_film(*pilot_, *stores.pilot, pass());
   }
   own_seconds_ += watch.seconds();
 }
@@ -91,7 +91,7 @@ void Lane::take(const LaneStores& stores, int tile_row) {
   }
 }
 
-void Lane::end_frame(double take_seconds) {
+void Lane::end_pass(double take_seconds) {
   const Stopwatch watch;
   const Estimator& row = estimator(policy_.estimator);
   if (row.estimate) {
@@ -102,11 +102,11 @@ void Lane::end_frame(double take_seconds) {
     }
     row.estimate(input, error_);
   }
-  FrameRecord record;
+  PassRecord record;
   if (!history_.records().empty()) {
     record = history_.back();
   }
-  ++record.frame;
+  ++record.pass;
   record.samples += pilot_ ? 2 * plan_.total : plan_.total;
   record.pilot_samples += pilot_ ? plan_.total : 0;
   record.max_spp = 0;
@@ -126,17 +126,17 @@ void Lane::end_frame(double take_seconds) {
   // Each sample is one unit of work beside its rays.
   record.rays =
       std::accumulate(work.units.begin(), work.units.end(), std::uint64_t(0)) - record.samples;
-  replan(record.frame);
+  replan(record.pass);
   own_seconds_ += take_seconds + watch.seconds();
   record.not_done = plan_.not_done;
   record.seconds = own_seconds_;
-  record.true_error = FrameRecord().true_error;
+  record.true_error = PassRecord().true_error;
   history_.push(record, work);
 }
 
 void Lane::forget_true_errors() {
-  for (FrameRecord& record : history_.records()) {
-    record.true_error = FrameRecord().true_error;
+  for (PassRecord& record : history_.records()) {
+    record.true_error = PassRecord().true_error;
   }
 }
 
@@ -163,9 +163,9 @@ void Lane::catch_up_pilot(const SampleStore& store) {
   }
 }
 
-/// Plans the frame after this one.
-void Lane::replan(std::uint32_t frame) {
-  plan_next(policy_, {film_.width(), film_.height(), error_, taken_, frame}, plan_);
+/// Plans the pass after this one.
+void Lane::replan(std::uint32_t pass) {
+  plan_next(policy_, {film_.width(), film_.height(), error_, taken_, pass}, plan_);
 }
 
 }  // namespace quartet

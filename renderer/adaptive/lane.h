@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/adaptive/film.h"
-#include "renderer/adaptive/frame_history.h"
+#include "renderer/adaptive/pass_history.h"
 #include "renderer/adaptive/policy.h"
 #include "renderer/trace/store/sample_store.h"
 
@@ -26,7 +26,7 @@ struct LaneInputs {
 };
 
 /// One of the experiments that run side by side: a policy and what came of it. Its state is a
-/// function of (samples, policy, frame), with an oracle also of the reference, and of nothing else.
+/// function of (samples, policy, pass), with an oracle also of the reference, and of nothing else.
 class Lane {
  public:
   Lane(int width, int height, const SamplingPolicy& policy, const LaneInputs& inputs);
@@ -36,27 +36,27 @@ class Lane {
   const Film& film() const { return film_; }
   /// The film whose errors decide: a pilot of SampleUse::unbiased, or what is shown.
   const Film& deciding_film() const { return pilot_ ? *pilot_ : film_; }
-  /// Raw error of the deciding film, channels × pixels; empty before the first frame and for
+  /// Raw error of the deciding film, channels × pixels; empty before the first pass and for
   /// estimators without one.
   std::span<const float> error() const { return error_; }
-  /// What the next frame will take.
+  /// What the next pass will take.
   const Plan& plan() const { return plan_; }
   /// Samples that each pixel has used, rejected ones included; those of a pilot come on top.
   std::span<const std::uint32_t> taken() const { return taken_; }
-  std::uint32_t frame() const { return history_.frames(); }
-  /// See frame_history.h: of a long run it has some frames left out.
-  std::span<const FrameRecord> history() const { return history_.records(); }
+  std::uint32_t pass() const { return history_.passes(); }
+  /// See pass_history.h: of a long run it has some passes left out.
+  std::span<const PassRecord> history() const { return history_.records(); }
 
-  // A frame, whose planned samples must be in the stores, has three steps, so that lanes can take
+  // A pass, whose planned samples must be in the stores, has three steps, so that lanes can take
   // samples together.
 
-  void begin_frame(const LaneStores& stores);
+  void begin_pass(const LaneStores& stores);
   /// Takes what is planned for one row of tiles; calls for different rows may come from different
   /// threads.
   void take(const LaneStores& stores, int tile_row);
   /// Estimates and plans, on the threads of the current TBB arena. `take_seconds` is what taking
-  /// cost. The frame's record is charged for its samples by charge().
-  void end_frame(double take_seconds);
+  /// cost. The pass's record is charged for its samples by charge().
+  void end_pass(double take_seconds);
 
   /// What its samples took is from now on what these costs say; `last_only`: all records but the
   /// last were charged by the same.
@@ -71,20 +71,20 @@ class Lane {
   void catch_up_shown(const SampleStore& store);
   void catch_up_pilot(const SampleStore& store);
 
-  /// Back to frame 0, with another policy or other inputs.
+  /// Back to pass 0, with another policy or other inputs.
   void restart(const SamplingPolicy& policy, const LaneInputs& inputs);
 
  private:
-  /// What a row of tiles adds to a frame's record.
+  /// What a row of tiles adds to a pass's record.
   struct RowTotal {
     std::uint32_t max_spp = 0;
-    // Of all samples where they were looked up, else of those of this frame.
+    // Of all samples where they were looked up, else of those of this pass.
     SampleCosts::Work shown;
     SampleCosts::Work pilot;
   };
 
   std::uint32_t count(std::size_t begin, std::size_t end);
-  void replan(std::uint32_t frame);
+  void replan(std::uint32_t pass);
 
   SamplingPolicy policy_;
   std::shared_ptr<const RadianceImage> reference_;
@@ -93,7 +93,7 @@ class Lane {
   std::vector<float> error_;
   std::vector<std::uint32_t> taken_;
   Plan plan_;
-  FrameHistory history_;
+  PassHistory history_;
   std::vector<RowTotal> rows_;
   bool looks_up_shown_ = false;
   bool looks_up_pilot_ = false;

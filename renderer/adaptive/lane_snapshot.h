@@ -9,7 +9,7 @@
 
 namespace quartet {
 
-/// What one lane looked like at the end of a frame: plain data, copied out of the lane, so that it
+/// What one lane looked like at the end of a pass: plain data, copied out of the lane, so that it
 /// may be kept and read while the lane goes on. Pixels are in rows from the top left.
 struct LaneSnapshot {
   SamplingPolicy policy;
@@ -21,8 +21,8 @@ struct LaneSnapshot {
   /// Of the pixel mean: red, green, blue × pixels, in radiance²; the largest float where that is
   /// less; empty where the films keep none.
   std::vector<float> variance;
-  std::vector<FrameRecord> history;              ///< see frame_history.h; back() is the current one
-  Plan plan;                                     ///< of the next frame
+  std::vector<PassRecord> history;               ///< see pass_history.h; back() is the current one
+  Plan plan;                                     ///< of the next pass
   SampleHistogram sample_histogram;              ///< of `taken`
   std::vector<ErrorHistogram> error_histograms;  ///< one a channel of the estimator
 };

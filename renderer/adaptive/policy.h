@@ -39,7 +39,7 @@ enum class SampleUse {
   unbiased,
 };
 
-/// What decides where a lane's samples go. A change replays the lane from its first frame.
+/// What decides where a lane's samples go. A change replays the lane from its first pass.
 struct SamplingPolicy {
   EstimatorId estimator = EstimatorId::contrast;
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
@@ -55,20 +55,20 @@ inline constexpr std::uint32_t most_spp = (1u << 31) - 1;
 /// The policy with an estimator's default thresholds and allocation.
 SamplingPolicy default_policy(EstimatorId estimator);
 
-/// What a policy sees at the end of a frame.
+/// What a policy sees at the end of a pass.
 struct PlanInput {
   int width;
   int height;
   std::span<const float> error;          ///< channels × pixels, as the estimator wrote it
   std::span<const std::uint32_t> taken;  ///< samples each pixel has used, rejected ones included
-  std::uint32_t frame;                   ///< the last one finished, from 1; 0 before the first
+  std::uint32_t pass;                    ///< the last one finished, from 1; 0 before the first
 };
 
-/// Samples that each pixel gets in the next frame, and how it came to that.
+/// Samples that each pixel gets in the next pass, and how it came to that.
 struct Plan {
   std::vector<std::uint16_t> wanted;
   std::uint64_t total = 0;  ///< sum of `wanted`
-  /// Pixels that are not done, whether they get samples or not; all of them before the first frame.
+  /// Pixels that are not done, whether they get samples or not; all of them before the first pass.
   std::uint64_t not_done = 0;
 };
 
@@ -103,7 +103,7 @@ const SampleUseRow& sample_use(SampleUse key);
 /// Throws std::invalid_argument that lists the legal ids.
 const SampleUseRow& find_sample_use(std::string_view id);
 
-/// Plans the next frame, from nothing but the arguments; `plan` is overwritten. An estimator
+/// Plans the next pass, from nothing but the arguments; `plan` is overwritten. An estimator
 /// without an error gives every pixel one sample, whatever the allocation.
 void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
 

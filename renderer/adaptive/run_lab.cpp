@@ -4,12 +4,12 @@
 
 namespace quartet {
 
-bool run_lab(Lab& lab, const std::stop_token& stop, const std::function<bool()>& after_frame) {
+bool run_lab(Lab& lab, const std::stop_token& stop, const std::function<bool()>& after_pass) {
   do {
-    if (stop.stop_requested() || !lab.run_frame(stop) || stop.stop_requested()) {
+    if (stop.stop_requested() || !lab.run_pass(stop) || stop.stop_requested()) {
       return false;
     }
-  } while (after_frame());
+  } while (after_pass());
   return true;
 }
 

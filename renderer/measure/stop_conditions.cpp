@@ -39,11 +39,11 @@ ErrorTarget parse_error_target(std::string_view text) {
   return target;
 }
 
-double StopConditions::progress(const FrameRecord& last, std::size_t pixels,
+double StopConditions::progress(const PassRecord& last, std::size_t pixels,
                                 double measured_error) const {
   double done = 0.0;
-  if (frames) {
-    done = std::max(done, double(last.frame) / double(*frames));
+  if (passes) {
+    done = std::max(done, double(last.pass) / double(*passes));
   }
   if (spp) {
     done = std::max(done, mean_spp(last, pixels) / *spp);
@@ -84,7 +84,7 @@ double StopConditions::progress(const LaneSnapshot& lane) const {
   return lane.plan.total == 0 ? 1.0 : progress_at(lane, lane.history.back());
 }
 
-double StopConditions::progress_at(const LaneSnapshot& lane, const FrameRecord& record) const {
+double StopConditions::progress_at(const LaneSnapshot& lane, const PassRecord& record) const {
   StopConditions known = *this;
   if (std::isnan(record.true_error)) {
     known.error.reset();
@@ -93,10 +93,10 @@ double StopConditions::progress_at(const LaneSnapshot& lane, const FrameRecord& 
 }
 
 std::optional<std::uint32_t> StopConditions::end_of(const LaneSnapshot& lane) const {
-  for (const FrameRecord& record : lane.history) {
+  for (const PassRecord& record : lane.history) {
     const bool nothing_more = lane.plan.total == 0 && record.samples == lane.history.back().samples;
     if (nothing_more || progress_at(lane, record) >= 1.0) {
-      return record.frame;
+      return record.pass;
     }
   }
   return std::nullopt;

@@ -27,15 +27,15 @@ struct StoreRequest {
 struct LaneRequest {
   static constexpr std::uint32_t no_end = UINT32_MAX;
 
-  /// One a lane; at least one. A change replays that lane from frame 1.
+  /// One a lane; at least one. A change replays that lane from pass 1.
   std::vector<SamplingPolicy> policies;
   /// Where the lanes shall stand, from 1; or no_end. A higher one: they go on. A lower one: they
   /// replay up to it.
-  std::uint32_t frame = 15;
+  std::uint32_t pass = 15;
   /// Snapshots carry the variance of the mean. A change replays all lanes.
   bool variance = false;
   /// The truth, of the size of the pictures; null if there is none, and then no estimator may need
-  /// it. With one, snapshots carry each lane's error against it, frame by frame, and a lane of
+  /// it. With one, snapshots carry each lane's error against it, pass by pass, and a lane of
   /// uniform sampling to compare with. A change replays all lanes, unless it takes the truth away:
   /// then only those of estimators that need it.
   std::shared_ptr<const RadianceImage> reference;

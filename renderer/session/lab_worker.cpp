@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr auto snapshot_interval = milliseconds(33);
-// While a replay has not caught up with what is shown, its frames would only flicker: they are
+// While a replay has not caught up with what is shown, its passes would only flicker: they are
 // shown when there is nothing better for this long.
 constexpr auto replay_interval = milliseconds(250);
 
@@ -77,7 +77,7 @@ void LabWorker::begin(std::unique_ptr<Mailbox::Numbered> newest) {
   const bool keep = lab_ && current_->request.store == newest->request.store;
   current_ = std::move(newest);
   board_.status.error.clear();
-  board_.status.frame_target = current_->request.lanes.frame;
+  board_.status.pass_target = current_->request.lanes.pass;
   board_.status.memory_budget = current_->request.store.memory;
   if (keep) {
     change_lab();
@@ -113,16 +113,16 @@ void LabWorker::make_lab() {
                                request.store.settings.width, request.store.settings.height,
                                policies(), options);
   measure_anew();
-  owes_first_picture_ = request.lanes.frame > 0;
+  owes_first_picture_ = request.lanes.pass > 0;
   board_.describe(*lab_);
   publish_status();
 }
 
 void LabWorker::change_lab() {
   const LabRequest& request = current_->request;
-  std::uint32_t reached = shown_ ? shown_->frame : 0;
+  std::uint32_t reached = shown_ ? shown_->pass : 0;
   for (const Lane& lane : lab_->lanes()) {
-    reached = std::max(reached, lane.frame());
+    reached = std::max(reached, lane.pass());
   }
   FilmStatistics statistics;
   statistics.variance = request.lanes.variance;
@@ -131,12 +131,12 @@ void LabWorker::change_lab() {
     publish_shown_again();
     return;
   }
-  lab_->rewind_past(request.lanes.frame);
+  lab_->rewind_past(request.lanes.pass);
   if (measure_anew() && request.lanes.reference) {
-    lab_->rewind_past(0);  // the frames of before are to be measured too
+    lab_->rewind_past(0);  // the passes of before are to be measured too
   }
-  replays_to_ = std::min(reached, request.lanes.frame);
-  replaying_ = lab_->frame() < replays_to_;
+  replays_to_ = std::min(reached, request.lanes.pass);
+  replaying_ = lab_->pass() < replays_to_;
   replay_start_ = Clock::now();
 }
 
@@ -153,7 +153,7 @@ bool LabWorker::measure_anew() {
   return true;
 }
 
-/// Runs frames until the current request is answered in full, which gives null, or a newer one has
+/// Runs passes until the current request is answered in full, which gives null, or a newer one has
 /// to be taken up, which gives that.
 std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
   while (!complete_) {
@@ -163,13 +163,13 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
     if (gives_way()) {
       return mailbox_.take();
     }
-    if (lab_->frame() < current_->request.lanes.frame) {
+    if (lab_->pass() < current_->request.lanes.pass) {
       board_.status.activity = replaying_ ? Activity::replaying : Activity::tracing;
       stop_ = std::stop_source();
       if (tracing_gives_way()) {
         stop_.request_stop();  // what is stored is replayed nevertheless
       }
-      if (!lab_->run_frame(stop_.get_token())) {
+      if (!lab_->run_pass(stop_.get_token())) {
         return mailbox_.take();
       }
       if (measured_against_) {
@@ -179,7 +179,7 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
       }
       board_.describe(*lab_);
     }
-    if (replaying_ && lab_->frame() >= replays_to_) {
+    if (replaying_ && lab_->pass() >= replays_to_) {
       replaying_ = false;
       board_.status.replay_seconds =
           std::chrono::duration<double>(Clock::now() - replay_start_).count();
@@ -204,7 +204,7 @@ void LabWorker::fail(const char* reason) {
   publish_status();
 }
 
-/// Whether a newer request is to be taken up between two frames.
+/// Whether a newer request is to be taken up between two passes.
 bool LabWorker::gives_way() const {
   switch (mailbox_.waiting()) {
     case Mailbox::Waiting::nothing:
@@ -248,12 +248,12 @@ SampleSource LabWorker::watched(SampleSource trace) {
 
 bool LabWorker::lanes_are_together() const {
   return std::ranges::all_of(lab_->lanes(),
-                             [&](const Lane& lane) { return lane.frame() == lab_->frame(); });
+                             [&](const Lane& lane) { return lane.pass() == lab_->pass(); });
 }
 
 /// Whether a request without an end has come to one, because no lane wants another sample.
 bool LabWorker::has_run_out() const {
-  return current_->request.lanes.frame == LaneRequest::no_end &&
+  return current_->request.lanes.pass == LaneRequest::no_end &&
          std::ranges::all_of(asked_lanes(),
                              [](const Lane& lane) { return lane.plan().total == 0; });
 }
@@ -266,10 +266,10 @@ bool LabWorker::snapshot_is_due() const {
   if (!lanes_are_together()) {
     return false;
   }
-  if (!shown_ || lab_->frame() == current_->request.lanes.frame || has_run_out()) {
+  if (!shown_ || lab_->pass() == current_->request.lanes.pass || has_run_out()) {
     return true;
   }
-  const auto interval = lab_->frame() > shown_->frame ? snapshot_interval : replay_interval;
+  const auto interval = lab_->pass() > shown_->pass ? snapshot_interval : replay_interval;
   return Clock::now() - published_at_ >= interval;
 }
 
@@ -300,10 +300,10 @@ void LabWorker::publish(std::unique_ptr<Snapshot> snapshot) {
   snapshot->request = current_->number;
   shown_ = pool_->publish(std::move(snapshot));
   shown_lanes_ = current_->request.lanes;
-  shown_lanes_.frame = shown_->frame;
+  shown_lanes_.pass = shown_->pass;
   owes_first_picture_ = false;
   answered_ = true;
-  complete_ = shown_->frame == current_->request.lanes.frame || has_run_out();
+  complete_ = shown_->pass == current_->request.lanes.pass || has_run_out();
   published_at_ = Clock::now();
   if (complete_ && mailbox_.waiting() == Mailbox::Waiting::nothing) {
     board_.status.activity = Activity::idle;

@@ -28,7 +28,7 @@ class LabWorker {
   using Clock = SampleMeter::Clock;
   using Activity = SessionStatus::Activity;
 
-  /// Thrown through the tracer to end a frame of which nothing shall be kept.
+  /// Thrown through the tracer to end a pass of which nothing shall be kept.
   struct Closed {};
 
   void begin(std::unique_ptr<Mailbox::Numbered> newest);
@@ -66,7 +66,7 @@ class LabWorker {
   // What true errors in the records of its lanes are of.
   std::shared_ptr<const RadianceImage> measured_against_;
   MetricId measured_in_ = MetricId::relmse;
-  std::stop_source stop_;  // of the frame under way
+  std::stop_source stop_;  // of the pass under way
   bool owes_first_picture_ = false;
 
   std::shared_ptr<const Snapshot> shown_;  // the last one published of this lab
@@ -79,7 +79,7 @@ class LabWorker {
   Clock::time_point unanswered_since_;  // when the first of those without an answer was taken
   Clock::time_point patience_ends_;     // until then tracing does not give way to other lanes
 
-  std::uint32_t replays_to_ = 0;  // the frame at which a replay has caught up
+  std::uint32_t replays_to_ = 0;  // the pass at which a replay has caught up
   bool replaying_ = false;
   Clock::time_point replay_start_;
 };

@@ -11,9 +11,9 @@ namespace quartet {
 void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline) {
   snapshot.width = lab.width();
   snapshot.height = lab.height();
-  snapshot.frame = lab.frame();
+  snapshot.pass = lab.pass();
   assert(std::ranges::all_of(lab.lanes(),
-                             [&](const Lane& lane) { return lane.frame() == snapshot.frame; }));
+                             [&](const Lane& lane) { return lane.pass() == snapshot.pass; }));
   const std::span<const Lane> lanes = lab.lanes();
   const std::size_t compared = last_is_baseline ? lanes.size() - 1 : lanes.size();
   snapshot.lanes.resize(compared);

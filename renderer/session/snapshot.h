@@ -13,7 +13,7 @@ namespace quartet {
 
 class Lab;
 
-/// All lanes at the end of the same frame.
+/// All lanes at the end of the same pass.
 struct Snapshot {
   std::uint64_t number = 0;  ///< grows with each one published by a session
   std::uint64_t request =
@@ -22,7 +22,7 @@ struct Snapshot {
   RenderSettings settings;
   int width = 0;
   int height = 0;
-  std::uint32_t frame = 0;  ///< of all lanes; 0: nothing yet
+  std::uint32_t pass = 0;  ///< of all lanes; 0: nothing yet
   std::vector<LaneSnapshot> lanes;
   /// What true errors are measured against; null if there is nothing.
   std::shared_ptr<const RadianceImage> reference;
@@ -32,8 +32,8 @@ struct Snapshot {
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
 };
 
-/// Overwrites size, frame and lanes with what the lab looks like now, using again what memory they
-/// have; of true errors it knows nothing. All lanes must be at the same frame. If
+/// Overwrites size, pass and lanes with what the lab looks like now, using again what memory they
+/// have; of true errors it knows nothing. All lanes must be at the same pass. If
 /// `last_is_baseline`, the last of them is what the others are compared with.
 void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline = false);
 

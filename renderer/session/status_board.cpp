@@ -5,7 +5,7 @@
 namespace quartet {
 
 void StatusBoard::describe(const Lab& lab) {
-  status.frame = lab.frame();
+  status.pass = lab.pass();
   status.stored_samples = lab.stored_samples();
   status.stored_bytes = lab.stored_bytes();
   status.partial = lab.partial();

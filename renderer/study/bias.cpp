@@ -105,7 +105,7 @@ double price_of_unbiasedness(const BiasRuns& reuse, const BiasRuns& unbiased) {
 
 std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
                                    const RenderSettings& settings,
-                                   std::span<const SamplingPolicy> policies, std::uint32_t frames,
+                                   std::span<const SamplingPolicy> policies, std::uint32_t passes,
                                    std::uint32_t seeds, const LabOptions& options,
                                    const std::function<void(double)>& progress,
                                    std::stop_token stop) {
@@ -127,8 +127,8 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
     lab_options.pilot_source = pilot_source(scene, own);
     Lab lab(source, own.width, own.height, lanes, lab_options);
     const bool ended = run_lab(lab, stop, [&] {
-      progress((k + 0.8 * double(lab.frame()) / double(frames)) / double(seeds));
-      return lab.frame() < frames;
+      progress((k + 0.8 * double(lab.pass()) / double(passes)) / double(seeds));
+      return lab.pass() < passes;
     });
     if (!ended) {
       return {};
@@ -147,7 +147,7 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
       const Lane& lane = lab.lanes()[i];
       const RadianceImage shown = lane.film().image();
       const RadianceImage& other = uniform.at(uniform_spp(i));
-      const FrameRecord& last = lane.history().back();
+      const PassRecord& last = lane.history().back();
       runs[i].policy = lanes[i];
       runs[i].mean_spp.push_back(mean_spp(last, shown.size()));
       runs[i].mean_rays.push_back(mean_rays(last, shown.size()));

@@ -34,12 +34,12 @@ struct BiasRuns {
 /// reuse took: both fall as 1/samples.
 double price_of_unbiasedness(const BiasRuns& reuse, const BiasRuns& unbiased);
 
-/// Runs each policy in both modes, `frames` frames with each of the seeds settings.seed,
+/// Runs each policy in both modes, `passes` passes with each of the seeds settings.seed,
 /// settings.seed + 1, …, at least 2; results are reuse, unbiased, reuse, … in the order of the
 /// policies. `progress` gets the share that is done. Empty if `stop` ended it early.
 std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
                                    const RenderSettings& settings,
-                                   std::span<const SamplingPolicy> policies, std::uint32_t frames,
+                                   std::span<const SamplingPolicy> policies, std::uint32_t passes,
                                    std::uint32_t seeds, const LabOptions& options,
                                    const std::function<void(double)>& progress,
                                    std::stop_token stop = {});

@@ -20,14 +20,14 @@ constexpr double spot_on_seconds = 0.004;
 constexpr double extreme = 0x1p50;
 constexpr int most_runs = 80;
 /// Rounds after which a uniform run that does not reach an error is given up.
-constexpr std::uint32_t most_uniform_frames = 1u << 14;
+constexpr std::uint32_t most_uniform_passes = 1u << 14;
 
 void check(const CommonBudget& budget, const Experiment& experiment) {
   const int given =
       int(budget.spp.has_value()) + int(budget.seconds.has_value()) + int(budget.error.has_value());
-  if (given != 1 || budget.frames == 0) {
+  if (given != 1 || budget.passes == 0) {
     throw std::invalid_argument(
-        "a budget is one of samples, seconds and error, within at least one frame");
+        "a budget is one of samples, seconds and error, within at least one pass");
   }
   if (budget.error && experiment.reference() == nullptr) {
     throw std::invalid_argument("an error can only be a budget where there is a reference");
@@ -67,11 +67,11 @@ class Search {
  private:
   RunPlan plan(double factor) const {
     RunPlan plan{.policy = scaled_thresholds(policy_, factor), .stop = {}};
-    plan.stop.frames = budget_.frames;
+    plan.stop.passes = budget_.passes;
     if (budget_.error) {
       plan.metrics = {budget_.error->metric};
     } else if (factor < extreme) {
-      // A run that has spent more after fewer frames need not go on, unless none would spend less.
+      // A run that has spent more after fewer passes need not go on, unless none would spend less.
       constexpr double too_much = 1.02;
       plan.stop.spp = budget_.spp ? std::optional(too_much * *budget_.spp) : std::nullopt;
       plan.stop.seconds =
@@ -106,7 +106,7 @@ class Search {
     const Measurement& result = measured->back();
     const double spent = spending(budget_, result);
     // One that was cut short is on the far side, and no answer.
-    if (result.record.frame == budget_.frames || experiment_.lane().plan().total == 0) {
+    if (result.record.pass == budget_.passes || experiment_.lane().plan().total == 0) {
       consider(planned.policy, factor, result, spent);
     }
     return spent;
@@ -154,14 +154,14 @@ class Search {
 
   bool run_uniform() {
     RunPlan planned{.policy = policy_, .stop = {}};
-    planned.stop = {.frames = most_uniform_frames,
+    planned.stop = {.passes = most_uniform_passes,
                     .spp = budget_.spp,
                     .seconds = budget_.seconds,
                     .error = budget_.error};
     if (budget_.error) {
       planned.metrics = {budget_.error->metric};
     }
-    planned.measure_at = MeasureAt::every_frame;
+    planned.measure_at = MeasureAt::every_pass;
     const auto measured = experiment_.run(planned, stop_);
     if (!measured) {
       return false;
@@ -177,16 +177,16 @@ class Search {
   std::string reason() const {
     const std::string nearest = nearest_text();
     if (estimator(policy_.estimator).channels == 0) {
-      return fmt::format("whole frames come no nearer than {}", nearest);
+      return fmt::format("whole passes come no nearer than {}", nearest);
     }
     if (bracketed_) {
       return fmt::format("no threshold comes nearer than {}", nearest);
     }
     const bool too_much = best_spending_ > 1.0;
     const std::string_view policy = allocation(policy_.allocation.kind).id;
-    return budget_.error ? fmt::format("{} frames of {} with {} threshold give {}", budget_.frames,
+    return budget_.error ? fmt::format("{} passes of {} with {} threshold give {}", budget_.passes,
                                        policy, too_much ? "the highest" : "the lowest", nearest)
-                         : fmt::format("{} frames of {} take at {} {}", budget_.frames, policy,
+                         : fmt::format("{} passes of {} take at {} {}", budget_.passes, policy,
                                        too_much ? "least" : "most", nearest);
   }
 

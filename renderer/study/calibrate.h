@@ -10,10 +10,10 @@
 
 namespace quartet {
 
-/// What every estimator is given, or has to reach, within a number of frames: exactly one of mean
+/// What every estimator is given, or has to reach, within a number of passes: exactly one of mean
 /// samples a pixel, as-if-alone seconds, and an error.
 struct CommonBudget {
-  std::uint32_t frames = 15;
+  std::uint32_t passes = 15;
   std::optional<double> spp = {};
   std::optional<double> seconds = {};
   std::optional<ErrorTarget> error = {};
@@ -28,7 +28,7 @@ struct CommonBudget {
 struct Calibration {
   SamplingPolicy policy;  ///< with all thresholds of its estimator scaled by `factor`
   double factor = 1.0;    ///< against the thresholds that it began with
-  Measurement result;     ///< after the last frame; values: the error, if that is the budget
+  Measurement result;     ///< after the last pass; values: the error, if that is the budget
   bool met = false;       ///< within a hundredth
   /// Where it was not met: why, and what the nearest is, in one line.
   std::string reason;
@@ -37,13 +37,13 @@ struct Calibration {
 };
 
 /// Finds, by bisection over replays, the factor on all thresholds of a policy with which a run of
-/// so many frames meets the budget as nearly as it can. The higher the thresholds, the fewer
+/// so many passes meets the budget as nearly as it can. The higher the thresholds, the fewer
 /// samples and the more error: the search relies on it. Where the budget lies beyond what any
 /// threshold gives, the nearest end is returned.
 ///
 /// A run depends on nothing but samples and policy, so that the same budget gives the same
 /// thresholds, except that measured seconds are never twice the same. An estimator without a
-/// threshold, uniform, has no factor: it runs as many frames as meet the budget.
+/// threshold, uniform, has no factor: it runs as many passes as meet the budget.
 ///
 /// Nothing if `stop` ended it. Throws std::invalid_argument for a budget that is not exactly one,
 /// or for an error without a reference in the experiment.

@@ -165,7 +165,7 @@ Claim firefly(const ClaimData& data) {
   Judge judge(data, 5, "A firefly draws samples to its whole neighbourhood.");
   for (std::size_t c = 0; c < report_criterion_count; ++c) {
     judge.above(0.0,
-                fmt::format("{}: samples next frame, a neighbour minus a pixel 4 away", name_of(c)),
+                fmt::format("{}: samples next pass, a neighbour minus a pixel 4 away", name_of(c)),
                 [c](const ClaimSeed& seed) {
                   const FireflyResponse& response = seed.runs[c].firefly;
                   return response.nearby - response.further;

@@ -21,14 +21,14 @@ std::size_t index_of(RegionId id) {
   return std::size_t(&region(id) - regions().data());
 }
 
-/// Follows one run frame by frame and sees what the frame after a firefly does about it.
+/// Follows one run pass by pass and sees what the pass after a firefly does about it.
 class FireflyWatch {
  public:
   FireflyWatch(const Lab& lab, const SampleSource& source, const RadianceImage& truth,
                const std::vector<RegionId>& regions)
       : lab_(lab), source_(source), truth_(truth), regions_(regions) {}
 
-  /// After a frame that took `wanted`; the lane's plan is that of the next one.
+  /// After a pass that took `wanted`; the lane's plan is that of the next one.
   void look(const std::vector<std::uint16_t>& wanted) {
     const Lane& lane = lab_.lanes().front();
     std::vector<glm::vec3> samples;
@@ -142,7 +142,7 @@ class ClaimLab {
         lab_(source_, world.width, world.height, std::span(&uniform_, 1),
              lab_options(world, seed)) {}
 
-  bool run_criterion(EstimatorId id, std::uint32_t frames, const std::vector<std::size_t>& pixels,
+  bool run_criterion(EstimatorId id, std::uint32_t passes, const std::vector<std::size_t>& pixels,
                      ClaimRun& run) {
     lab_.set_policy(0, default_policy(id));
     FireflyWatch watch(lab_, source_, *world_.reference, regions_);
@@ -150,7 +150,7 @@ class ClaimLab {
     const bool ended = run_lab(lab_, stop_, [&] {
       watch.look(wanted);
       wanted = lane().plan().wanted;
-      return lane().frame() < frames;
+      return lane().pass() < passes;
     });
     if (!ended) {
       return false;
@@ -163,7 +163,7 @@ class ClaimLab {
     return true;
   }
 
-  /// What uniform sampling reaches in each run's time, between the frames around it.
+  /// What uniform sampling reaches in each run's time, between the passes around it.
   bool run_uniform(ClaimSeed& seed) {
     lab_.set_policy(0, uniform_);
     double longest = 0.0;
@@ -175,10 +175,10 @@ class ClaimLab {
     double before = 0.0;
     const bool ended = run_lab(lab_, stop_, [&] {
       const double seconds = lane().history().back().seconds;
-      // FLIP takes longer than a frame: only next to where it is asked for.
+      // FLIP takes longer than a pass: only next to where it is asked for.
       const auto is_near = [&](const ClaimRun& run) {
-        const double frame = seconds - before;
-        return std::abs(run.seconds - seconds) <= 1.5 * frame;
+        const double pass = seconds - before;
+        return std::abs(run.seconds - seconds) <= 1.5 * pass;
       };
       relmse.push_back({seconds, error(MetricId::relmse)});
       if (std::ranges::any_of(seed.runs, is_near)) {
@@ -220,7 +220,7 @@ class ClaimLab {
 }  // namespace
 
 std::optional<ClaimData> measure_claims(
-    const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t frames,
+    const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t passes,
     std::uint32_t seeds, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress) {
   ClaimData data;
@@ -237,7 +237,7 @@ std::optional<ClaimData> measure_claims(
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       progress(double(std::size_t(k) * steps + c) / double(std::size_t(seeds) * steps),
                fmt::format("seed {}, {}", seed, estimator(report_criteria[c]).id));
-      if (!lab.run_criterion(report_criteria[c], frames, data.pixels, measured.runs[c])) {
+      if (!lab.run_criterion(report_criteria[c], passes, data.pixels, measured.runs[c])) {
         return std::nullopt;
       }
       keep_most(data.rejected, rejected_of(lab.lane(), seed));

@@ -20,14 +20,14 @@ inline constexpr std::array report_criteria{EstimatorId::contrast, EstimatorId::
                                             EstimatorId::chi2, EstimatorId::hellinger};
 inline constexpr std::size_t report_criterion_count = report_criteria.size();
 
-/// What one firefly draws: samples that the frame after it gives, in the mean over all fireflies.
+/// What one firefly draws: samples that the pass after it gives, in the mean over all fireflies.
 struct FireflyResponse {
   std::uint64_t fireflies = 0;
   double nearby = 0.0;   ///< a pixel of its 8 neighbours
   double further = 0.0;  ///< a pixel at distance 4: beyond any window that saw it
 };
 
-/// One criterion after the report's frames, with one seed.
+/// One criterion after the report's passes, with one seed.
 struct ClaimRun {
   std::vector<double> spp;    ///< mean samples per pixel of each region, in the table's order
   std::vector<double> share;  ///< of all samples
@@ -57,7 +57,7 @@ struct ClaimData {
 /// Renders the report's scene as the report did, at several seeds. Nothing if `stop` ended it.
 /// Throws std::runtime_error if the scene is not the report's.
 std::optional<ClaimData> measure_claims(
-    const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t frames,
+    const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t passes,
     std::uint32_t seeds, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress);
 

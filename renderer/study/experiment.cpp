@@ -12,7 +12,7 @@
 namespace quartet {
 namespace {
 
-/// A lab of one lane, which no run has used yet: it costs nothing before its first frame.
+/// A lab of one lane, which no run has used yet: it costs nothing before its first pass.
 Lab idle_lab(SampleSource source, int width, int height, LabOptions options,
              const std::shared_ptr<const RadianceImage>& reference) {
   const SamplingPolicy policy = default_policy(EstimatorId::uniform);
@@ -20,9 +20,9 @@ Lab idle_lab(SampleSource source, int width, int height, LabOptions options,
   return {std::move(source), width, height, std::span(&policy, 1), options};
 }
 
-bool is_measured(MeasureAt at, std::uint32_t frame) {
-  return at == MeasureAt::every_frame ||
-         (at == MeasureAt::powers_of_two && std::has_single_bit(frame));
+bool is_measured(MeasureAt at, std::uint32_t pass) {
+  return at == MeasureAt::every_pass ||
+         (at == MeasureAt::powers_of_two && std::has_single_bit(pass));
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ std::optional<std::vector<Measurement>> Experiment::run(
   std::vector<Measurement> measurements;
   const bool ended = run_lab(lab_, stop, [&] {
     const double done = plan.stop.progress(lane(), reference_.get());
-    if (done >= 1.0 || is_measured(plan.measure_at, lane().frame())) {
+    if (done >= 1.0 || is_measured(plan.measure_at, lane().pass())) {
       measurements.push_back(measure(plan.metrics));
     }
     if (progress) {

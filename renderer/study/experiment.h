@@ -14,21 +14,21 @@
 
 namespace quartet {
 
-/// A lane at the end of a frame, measured.
+/// A lane at the end of a pass, measured.
 struct Measurement {
-  FrameRecord record;
+  PassRecord record;
   double mean_spp = 0.0;
   double mean_rays = 0.0;      ///< a pixel
   std::vector<double> values;  ///< of the metrics that were asked for, in their order
 };
 
-/// At which frames a run is measured; at its end it always is.
-enum class MeasureAt { end, powers_of_two, every_frame };
+/// At which passes a run is measured; at its end it always is.
+enum class MeasureAt { end, powers_of_two, every_pass };
 
 /// How one lane is run.
 struct RunPlan {
   SamplingPolicy policy;
-  StopConditions stop;                 ///< the run ends after the first frame where one holds
+  StopConditions stop;                 ///< the run ends after the first pass where one holds
   std::vector<MetricId> metrics = {};  ///< none: only what a run costs is measured
   MeasureAt measure_at = MeasureAt::end;
 };
@@ -43,8 +43,8 @@ class Experiment {
   Experiment(SampleSource source, int width, int height, const LabOptions& options,
              std::shared_ptr<const RadianceImage> reference = nullptr);
 
-  /// The measurements of a run, in the order of their frames; the last one is that of its end.
-  /// Nothing if `stop` ended it early. `progress`, if any, is told after each frame how much of the
+  /// The measurements of a run, in the order of their passes; the last one is that of its end.
+  /// Nothing if `stop` ended it early. `progress`, if any, is told after each pass how much of the
   /// run is done. Throws std::invalid_argument if it needs a reference and there is none, or if
   /// nothing would ever end it.
   std::optional<std::vector<Measurement>> run(const RunPlan& plan, std::stop_token stop = {},

@@ -74,7 +74,7 @@ RunPlan uniform_plan(const SweepPlan& plan) {
               .metrics = plan.metrics,
               .measure_at = MeasureAt::powers_of_two};
   if (run.stop.spp || run.stop.rays || run.stop.seconds || run.stop.error) {
-    run.stop.frames.reset();
+    run.stop.passes.reset();
   }
   if (run.stop.spp) {
     run.policy.max_spp = std::max(run.policy.max_spp, std::uint32_t(std::ceil(*run.stop.spp)));
@@ -260,7 +260,7 @@ std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t me
   for (std::size_t i = 0; i < result.uniform.front().size(); ++i) {
     std::vector<Measurement> seeds;
     for (const std::vector<Measurement>& run : result.uniform) {
-      // Seeds that end at a number of seconds have different numbers of frames.
+      // Seeds that end at a number of seconds have different numbers of passes.
       if (i < run.size()) {
         seeds.push_back(run[i]);
       }

@@ -46,7 +46,7 @@ struct SweepPlan {
   double high = 10.0;
   std::uint32_t seeds = 3;
   /// The end of each run. A run of the uniform baseline goes on until it has taken as many samples,
-  /// rays or seconds, as the dearest run may, so that it can be compared with all: frames do not
+  /// rays or seconds, as the dearest run may, so that it can be compared with all: passes do not
   /// end it where another condition does.
   StopConditions stop;
   std::vector<MetricId> metrics{MetricId::relmse};
@@ -64,7 +64,7 @@ struct SweepRun {
 
 struct SweepResult {
   std::vector<SweepRun> runs;  ///< seed by seed, policy by policy, by rising thresholds
-  /// The baseline, one run a seed, at powers of two of its frames and at its end.
+  /// The baseline, one run a seed, at powers of two of its passes and at its end.
   std::vector<std::vector<Measurement>> uniform;
   std::uint64_t first_seed = 0;
   std::uint64_t samples_traced = 0;
@@ -100,7 +100,7 @@ struct SweepPoint {
 /// Points of all policies, in the order of the plan, by rising thresholds.
 std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan& plan,
                                      std::size_t metric);
-/// Those of the baseline, by rising frames.
+/// Those of the baseline, by rising passes.
 std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t metric);
 
 /// Those that no other point beats in both time and error, by rising time: the Pareto front.

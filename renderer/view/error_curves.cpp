@@ -23,7 +23,7 @@ constexpr Rgba8 floor_color{236, 110, 124, 255};
 std::vector<glm::dvec2> curve_of(const LaneSnapshot& lane, const Snapshot& snapshot,
                                  Effort effort) {
   std::vector<glm::dvec2> points;
-  for (const FrameRecord& record : lane.history) {
+  for (const PassRecord& record : lane.history) {
     const double x = effort_row(effort).of(record, snapshot.pixels());
     const double y = record.true_error;
     if (x > 0.0 && y > 0.0 && std::isfinite(y)) {
@@ -157,7 +157,7 @@ std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane) 
   if (shown.history.empty() || !(shown.history.back().true_error > 0.0)) {
     return std::nullopt;
   }
-  const FrameRecord& last = shown.history.back();
+  const PassRecord& last = shown.history.back();
   const auto uniform = baseline_error(snapshot, Effort::seconds, last.seconds);
   return uniform ? std::optional(*uniform / last.true_error) : std::nullopt;
 }

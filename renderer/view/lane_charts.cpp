@@ -151,7 +151,7 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
     chart.y = linear_axis(0.0, 1.0, "% of pixels", 2);
     chart.texts.push_back({{0.5, 0.55},
                            Align::center,
-                           row.channels == 0 ? "no error: every pixel alike" : "no frame yet",
+                           row.channels == 0 ? "no error: every pixel alike" : "no pass yet",
                            chart_text});
     return chart;
   }
@@ -194,14 +194,14 @@ Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& 
 
 Chart progress_chart(const Snapshot& snapshot, std::size_t lane, Rgba8 accent) {
   const double pixels = double(std::max<std::size_t>(snapshot.pixels(), 1));
-  const std::vector<FrameRecord>& history = snapshot.lanes[lane].history;
+  const std::vector<PassRecord>& history = snapshot.lanes[lane].history;
   double most = 0.0;
   for (const LaneSnapshot& each : snapshot.lanes) {
     most = std::max(most, each.history.empty() ? 0.0 : double(each.history.back().samples));
   }
   Chart chart;
   chart.title = "samples so far";
-  chart.x = linear_axis(0.0, double(std::max<std::uint32_t>(snapshot.frame, 1)), "frame", 5);
+  chart.x = linear_axis(0.0, double(std::max<std::uint32_t>(snapshot.pass, 1)), "pass", 5);
   chart.y = linear_axis(0.0, 1.05 * std::max(most / pixels, 1.0), "samples per pixel", 3);
   // More points than a chart has columns are not seen.
   constexpr std::size_t most_points = 512;
@@ -210,10 +210,10 @@ Chart progress_chart(const Snapshot& snapshot, std::size_t lane, Rgba8 accent) {
   line.color = accent;
   line.points.emplace_back(0.0, 0.0);
   for (std::size_t i = step - 1; i < history.size(); i += step) {
-    line.points.emplace_back(history[i].frame, double(history[i].samples) / pixels);
+    line.points.emplace_back(history[i].pass, double(history[i].samples) / pixels);
   }
-  if (!history.empty() && line.points.back().x != double(history.back().frame)) {
-    line.points.emplace_back(history.back().frame, double(history.back().samples) / pixels);
+  if (!history.empty() && line.points.back().x != double(history.back().pass)) {
+    line.points.emplace_back(history.back().pass, double(history.back().samples) / pixels);
   }
   chart.lines.push_back(std::move(line));
   return chart;

@@ -39,7 +39,7 @@ DecadeRange error_decades(const LaneSnapshot& lane, const Thresholds& thresholds
 Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& thresholds,
                   Rgba8 accent, std::optional<DecadeRange> decades = {});
 
-/// Samples taken up to each frame, per pixel on average.
+/// Samples taken up to each pass, per pixel on average.
 Chart progress_chart(const Snapshot& snapshot, std::size_t lane, Rgba8 accent);
 
 }  // namespace quartet

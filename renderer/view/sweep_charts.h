@@ -12,7 +12,7 @@ namespace quartet {
 /// What a sweep's charts show, worked out once.
 struct SweepSummary {
   std::vector<SweepPoint> points;   ///< of all policies
-  std::vector<SweepPoint> uniform;  ///< at powers of two of its frames
+  std::vector<SweepPoint> uniform;  ///< at powers of two of its passes
   std::vector<SweepPoint> front;    ///< of points and uniform
   MetricId metric = MetricId::relmse;
   std::uint32_t seeds = 1;

@@ -21,7 +21,7 @@ TEST(Film, MeanAndVarianceOfTheMean) {
     sample = {radiance(random), 2.0f * radiance(random), 100.0f + radiance(random)};
   }
   Film film(2, 1, {.variance = true});
-  // In pieces, as frames do.
+  // In pieces, as passes do.
   film.add(1, std::span(samples).first(1));
   film.add(1, std::span(samples).subspan(1, 9));
   film.add(1, std::span(samples).subspan(10));
@@ -152,7 +152,7 @@ TEST(Film, IndicesOfHalvesCountRejectedSamples) {
   const std::vector<glm::vec3> samples{glm::vec3(1.0f), glm::vec3(nan),   glm::vec3(2.0f),
                                        glm::vec3(4.0f), glm::vec3(-1.0f), glm::vec3(8.0f)};
   Film film(1, 1, {.half = SampleHalf::alternate});
-  // In pieces, as frames do.
+  // In pieces, as passes do.
   film.add(0, std::span(samples).first(3));
   film.add(0, std::span(samples).subspan(3));
   EXPECT_EQ(film.half(0).count, 2u);

@@ -17,14 +17,14 @@ Lab noisy_lab(const std::vector<SamplingPolicy>& policies, LabOptions options) {
   return {test::noisy_source(budget_width), budget_width, budget_height, policies, options};
 }
 
-void run_to(Lab& lab, std::uint32_t frames) {
-  while (lab.frame() < frames) {
-    ASSERT_TRUE(lab.run_frame());
+void run_to(Lab& lab, std::uint32_t passes) {
+  while (lab.pass() < passes) {
+    ASSERT_TRUE(lab.run_pass());
   }
 }
 
-/// Takes one sample a frame and is never done; all that it is ahead it takes in its first frame.
-SamplingPolicy one_a_frame(std::uint16_t first, SampleUse use) {
+/// Takes one sample a pass and is never done; all that it is ahead it takes in its first pass.
+SamplingPolicy one_a_pass(std::uint16_t first, SampleUse use) {
   SamplingPolicy policy = default_policy(EstimatorId::contrast);
   policy.allocation.kind = AllocationId::batch;
   policy.allocation.first = first;
@@ -36,22 +36,22 @@ SamplingPolicy one_a_frame(std::uint16_t first, SampleUse use) {
 
 TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
   constexpr std::uint16_t ahead = 40;
-  constexpr std::uint32_t frames = 150;
+  constexpr std::uint32_t passes = 150;
   for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
     SCOPED_TRACE(sample_use(use).id);
     // The slowest is in the middle.
-    const std::vector<SamplingPolicy> policies{one_a_frame(ahead, use), one_a_frame(1, use),
-                                               one_a_frame(ahead / 2, use)};
+    const std::vector<SamplingPolicy> policies{one_a_pass(ahead, use), one_a_pass(1, use),
+                                               one_a_pass(ahead / 2, use)};
     LabOptions options;
     options.statistics.variance = true;  // no means, which would be forgotten first
     Lab ample = noisy_lab(policies, options);
     run_to(ample, 20);
     // Room for somewhat more than what lies between the lanes, far less than for all.
     options.memory = ample.stored_bytes();
-    run_to(ample, frames);
+    run_to(ample, passes);
     Lab tight = noisy_lab(policies, options);
-    run_to(tight, frames);
-    const std::uint64_t most = budget_pixels * (ahead + frames - 1);
+    run_to(tight, passes);
+    const std::uint64_t most = budget_pixels * (ahead + passes - 1);
     EXPECT_EQ(ample.store().traced(), most);
     EXPECT_TRUE(tight.store().partial());
     EXPECT_EQ(tight.store().traced(), most) << "none was traced again";
@@ -68,11 +68,11 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
 }
 
 TEST(LabBudget, APilotIsTracedForTheLanesThatHaveOne) {
-  constexpr std::uint32_t frames = 5;
-  Lab lab = noisy_lab({one_a_frame(40, SampleUse::reuse), one_a_frame(2, SampleUse::unbiased)}, {});
-  run_to(lab, frames);
-  EXPECT_EQ(lab.store().traced(), budget_pixels * (40 + frames - 1));
-  EXPECT_EQ(lab.pilot_store()->traced(), budget_pixels * (2 + frames - 1));
+  constexpr std::uint32_t passes = 5;
+  Lab lab = noisy_lab({one_a_pass(40, SampleUse::reuse), one_a_pass(2, SampleUse::unbiased)}, {});
+  run_to(lab, passes);
+  EXPECT_EQ(lab.store().traced(), budget_pixels * (40 + passes - 1));
+  EXPECT_EQ(lab.pilot_store()->traced(), budget_pixels * (2 + passes - 1));
 }
 
 }  // namespace

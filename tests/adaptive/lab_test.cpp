@@ -68,15 +68,15 @@ LabOptions options_with_memory(std::size_t bytes) {
   return options;
 }
 
-void run(Lab& lab, std::uint32_t frames) {
-  while (lab.frame() < frames) {
-    ASSERT_TRUE(lab.run_frame());
+void run(Lab& lab, std::uint32_t passes) {
+  while (lab.pass() < passes) {
+    ASSERT_TRUE(lab.run_pass());
   }
 }
 
 /// Equal to the bit: film, errors, plan, counts.
 void expect_same_state(const Lane& a, const Lane& b) {
-  ASSERT_EQ(a.frame(), b.frame());
+  ASSERT_EQ(a.pass(), b.pass());
   for (int c = 0; c < 3; ++c) {
     EXPECT_TRUE(std::ranges::equal(a.film().mean(c), b.film().mean(c)));
   }
@@ -259,10 +259,10 @@ TEST(Lab, StoppedWorkIsKeptAndTakenUpAgain) {
   std::stop_source stop;
   stop.request_stop();
   Lab lab = make_lab(policies);
-  EXPECT_TRUE(lab.run_frame(stop.get_token())) << "the first samples are never given up";
-  EXPECT_EQ(lab.frame(), 1u);
-  EXPECT_FALSE(lab.run_frame(stop.get_token()));
-  EXPECT_EQ(lab.frame(), 1u);
+  EXPECT_TRUE(lab.run_pass(stop.get_token())) << "the first samples are never given up";
+  EXPECT_EQ(lab.pass(), 1u);
+  EXPECT_FALSE(lab.run_pass(stop.get_token()));
+  EXPECT_EQ(lab.pass(), 1u);
   run(lab, 4);
   Lab fresh = make_lab(policies);
   run(fresh, 4);

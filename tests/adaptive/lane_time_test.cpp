@@ -59,7 +59,7 @@ SamplingPolicy with_use(EstimatorId id, SampleUse use) {
   return policy;
 }
 
-/// Takes 256 samples of each pixel a frame, with next to nothing to estimate and plan.
+/// Takes 256 samples of each pixel a pass, with next to nothing to estimate and plan.
 SamplingPolicy reading_policy() {
   SamplingPolicy policy = default_policy(EstimatorId::contrast);
   policy.allocation.kind = AllocationId::batch;
@@ -84,11 +84,11 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
     const LaneStores stores{shown, has_pilot ? &pilot : nullptr};
     double reading = 0.0;
     for (const double take_seconds : {5.0, 7.0, 11.0}) {
-      lane.begin_frame(stores);
+      lane.begin_pass(stores);
       for (int row = 0; row < shown.tile_rows(); ++row) {
         lane.take(stores, row);
       }
-      lane.end_frame(take_seconds);
+      lane.end_pass(take_seconds);
       SampleCosts costs = shown.costs();
       if (has_pilot) {
         costs.add(pilot.costs());
@@ -118,8 +118,8 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
   options.pilot_source = dear_source(15);
   const Stopwatch watch;
   Lab lab(dear_source(5), timed_side, timed_side, policies, options);
-  for (int frame = 0; frame < 4; ++frame) {
-    ASSERT_TRUE(lab.run_frame());
+  for (int pass = 0; pass < 4; ++pass) {
+    ASSERT_TRUE(lab.run_pass());
   }
   double own = 0.0;
   for (std::size_t lane = 0; lane < policies.size(); ++lane) {
@@ -148,7 +148,7 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
   options.threads = 1;
   options.statistics.variance = true;
   Lab lab(dear_source(0), timed_side, timed_side, policies, options);
-  ASSERT_TRUE(lab.run_frame());
+  ASSERT_TRUE(lab.run_pass());
   const double tracing = lab.store().seconds();
   double best = 0.0;
   // Whatever else the machine does only adds to what passes: the best of many tries counts.
@@ -157,7 +157,7 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
       lab.set_policy(lane, policies[lane]);
     }
     const Stopwatch watch;
-    ASSERT_TRUE(lab.run_frame());
+    ASSERT_TRUE(lab.run_pass());
     const double passed = watch.seconds();
     double own = 0.0;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -174,19 +174,19 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
 TEST(LaneTime, ALaneThatRestsIsChargedNothing) {
   const std::vector<SamplingPolicy> policies(3, default_policy(EstimatorId::kl));
   Lab lab(dear_source(1), timed_side, timed_side, policies, {});
-  ASSERT_TRUE(lab.run_frame());
-  ASSERT_TRUE(lab.run_frame());
+  ASSERT_TRUE(lab.run_pass());
+  ASSERT_TRUE(lab.run_pass());
   const double first = own_of(lab, 0);
   const double last = own_of(lab, 2);
   lab.set_policy(1, policies[1]);
-  ASSERT_TRUE(lab.run_frame());
-  EXPECT_EQ(lab.lanes()[1].frame(), 1u);
+  ASSERT_TRUE(lab.run_pass());
+  EXPECT_EQ(lab.lanes()[1].pass(), 1u);
   EXPECT_EQ(own_of(lab, 0), first);
   EXPECT_EQ(own_of(lab, 2), last);
   // What it had been charged before it began again is forgotten.
   const Stopwatch watch;
   lab.set_policy(1, policies[1]);
-  ASSERT_TRUE(lab.run_frame());
+  ASSERT_TRUE(lab.run_pass());
   EXPECT_LT(own_of(lab, 1), watch.seconds() + time_rounding);
 }
 

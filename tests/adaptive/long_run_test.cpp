@@ -38,7 +38,7 @@ SampleSource steady_noise(std::uint32_t seed) {
   };
 }
 
-TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandFrames) {
+TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandPasses) {
   constexpr std::size_t mib = std::size_t(1) << 20;
   SamplingPolicy reused = default_policy(EstimatorId::uniform);
   SamplingPolicy unbiased = default_policy(EstimatorId::kl);
@@ -51,10 +51,10 @@ TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandFrames) {
   const SamplingPolicy policies[] = {reused, unbiased};
   Lab lab(steady_noise(0), 4, 4, policies, options);
   std::size_t settled = 0;
-  for (std::uint32_t frame = 1; frame <= 100'000; ++frame) {
-    ASSERT_TRUE(lab.run_frame());
-    ASSERT_LE(lab.stored_bytes(), options.memory) << frame;
-    if (frame == 20'000) {
+  for (std::uint32_t pass = 1; pass <= 100'000; ++pass) {
+    ASSERT_TRUE(lab.run_pass());
+    ASSERT_LE(lab.stored_bytes(), options.memory) << pass;
+    if (pass == 20'000) {
       settled = memory_in_use();
     }
   }
@@ -62,8 +62,8 @@ TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandFrames) {
   EXPECT_LT(memory_in_use(), settled + 4 * mib);
   EXPECT_TRUE(lab.partial());
   for (const Lane& lane : lab.lanes()) {
-    EXPECT_EQ(lane.frame(), 100'000u);
-    EXPECT_LE(lane.history().size(), FrameHistory::most_records);
+    EXPECT_EQ(lane.pass(), 100'000u);
+    EXPECT_LE(lane.history().size(), PassHistory::most_records);
     EXPECT_EQ(lane.history().back().rays, 0u) << "nothing was traced";
     for (const std::uint32_t taken : lane.taken()) {
       EXPECT_GE(taken, 100'000u);

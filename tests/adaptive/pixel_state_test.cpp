@@ -83,7 +83,7 @@ struct Decided {
     return sum;
   }
 
-  /// What the second frame takes, one pixel at a time.
+  /// What the second pass takes, one pixel at a time.
   std::uint32_t wanted(AllocationId kind, int x, int y) const {
     const auto pixel = std::size_t(y * width + x);
     const bool refining = !done(pixel);
@@ -164,7 +164,7 @@ TEST(PixelState, PlansFollowIt) {
   }
 }
 
-TEST(PixelState, BeforeTheFirstFrameNothingIsDone) {
+TEST(PixelState, BeforeTheFirstPassNothingIsDone) {
   SamplingPolicy policy = default_policy(EstimatorId::contrast);
   const std::vector<std::uint32_t> taken(6, 0);
   EXPECT_EQ(pixel_states({policy, {}, taken}), std::vector<PixelState>(6, PixelState::refining));
@@ -182,8 +182,8 @@ TEST(PixelState, OfALaneIsThatOfItsSnapshot) {
   policies[0].max_spp = 8;
   constexpr int side = 16;
   Lab lab(test::noisy_source(side), side, side, policies);
-  for (int frame = 0; frame < 3; ++frame) {
-    lab.run_frame();
+  for (int pass = 0; pass < 3; ++pass) {
+    lab.run_pass();
   }
   Snapshot snapshot;
   copy_lanes(lab, snapshot);

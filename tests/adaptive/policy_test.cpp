@@ -23,9 +23,9 @@ struct Picture {
         error(std::size_t(w) * std::size_t(h) * std::size_t(channels), 0.0f),
         taken(std::size_t(w) * std::size_t(h), 1) {}
 
-  Plan plan(const SamplingPolicy& policy, std::uint32_t frame = 1) const {
+  Plan plan(const SamplingPolicy& policy, std::uint32_t pass = 1) const {
     Plan plan;
-    plan_next(policy, {width, height, error, taken, frame}, plan);
+    plan_next(policy, {width, height, error, taken, pass}, plan);
     return plan;
   }
 };
@@ -36,7 +36,7 @@ SamplingPolicy kl_policy(float multiplier) {
   return policy;
 }
 
-TEST(Vote, FirstFrameIsOneSampleEverywhere) {
+TEST(Vote, FirstPassIsOneSampleEverywhere) {
   Picture picture(5, 4);
   std::fill(picture.taken.begin(), picture.taken.end(), 0u);
   picture.error.clear();
@@ -105,7 +105,7 @@ TEST(Vote, EachChannelOfContrastHasItsThreshold) {
 
 TEST(Vote, StochasticRoundingKeepsTheMean) {
   // One vote at multiplier 0.5: each pixel draws one extra sample with probability ½. Over n = 90
-  // 000 pixels of nine planned frames the share lies within 4 standard deviations (false alarm
+  // 000 pixels of nine planned passes the share lies within 4 standard deviations (false alarm
   // 6e-5).
   Picture picture(100, 100);
   SamplingPolicy policy = kl_policy(0.5f);
@@ -117,8 +117,8 @@ TEST(Vote, StochasticRoundingKeepsTheMean) {
   }
   std::uint64_t extra = 0;
   std::uint64_t voted = 0;
-  for (std::uint32_t frame = 1; frame <= 9; ++frame) {
-    extra += picture.plan(policy, frame).total - 10'000;
+  for (std::uint32_t pass = 1; pass <= 9; ++pass) {
+    extra += picture.plan(policy, pass).total - 10'000;
     voted += 9801;  // 99 x 99
   }
   const double share = double(extra) / double(voted);

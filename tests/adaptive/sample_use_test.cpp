@@ -46,8 +46,8 @@ SamplingPolicy pilot_policy(std::uint16_t first, std::uint16_t most, SampleUse u
 }
 
 void run_to_end(Lab& lab) {
-  for (int frame = 0; frame < 4; ++frame) {
-    ASSERT_TRUE(lab.run_frame());
+  for (int pass = 0; pass < 4; ++pass) {
+    ASSERT_TRUE(lab.run_pass());
   }
   ASSERT_EQ(lab.lanes()[0].plan().total, 0u);
 }
@@ -116,11 +116,11 @@ TEST(SampleUse, ThePilotIsChargedAndNotShown) {
     EXPECT_EQ(lane.deciding_film().counts()[i], lane.taken()[i]);
     shown += lane.taken()[i];
   }
-  const FrameRecord& last = lane.history().back();
+  const PassRecord& last = lane.history().back();
   EXPECT_EQ(last.samples, 2 * shown);
   EXPECT_EQ(last.pilot_samples, shown);
   EXPECT_EQ(last.max_spp, 8u);
-  const FrameRecord& reused = lab.lanes()[1].history().back();
+  const PassRecord& reused = lab.lanes()[1].history().back();
   EXPECT_EQ(reused.pilot_samples, 0u);
   ASSERT_NE(lab.pilot_store(), nullptr);
   EXPECT_EQ(lab.pilot_store()->traced(), shown);

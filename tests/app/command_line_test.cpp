@@ -36,8 +36,8 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(figure({"--size", "960x540x3"}), "'960x540x3' is not a size");
   expect_usage_error(figure({"--size", "-5x5"}), "is not a size");
   expect_usage_error(figure({"--size", "65536x4096"}), "GiB of memory");
-  expect_usage_error(figure({"--frames", "0"}), "--frames");
-  expect_usage_error(figure({"--frames", "many"}), "--frames");
+  expect_usage_error(figure({"--passes", "0"}), "--passes");
+  expect_usage_error(figure({"--passes", "many"}), "--passes");
   expect_usage_error(figure({"--integrator", "bidir"}), "there are: kajiya, mis");
   expect_usage_error(figure({"--policy", "dice"}), "there are: vote");
   expect_usage_error(figure({"--tone-map", "gamma"}), "there are: clamp");
@@ -97,7 +97,7 @@ TEST(CommandLine, FailureIsOneLineAndCodeOne) {
 TEST(CommandLine, FigureWritesAllItsFiles) {
   const TempFolder folder;
   const std::filesystem::path out = folder.path() / "new" / "out";
-  const Result result = run({"figure", "cornell-checker", "--size", "32x18", "--frames", "3",
+  const Result result = run({"figure", "cornell-checker", "--size", "32x18", "--passes", "3",
                              "--seed", "7", "--out", out.string()});
   ASSERT_EQ(result.code, 0) << result.error;
   EXPECT_EQ(names_in(out),
@@ -131,7 +131,7 @@ TEST(CommandLine, FigureWritesAllItsFiles) {
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line,
-            "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,"
+            "scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,"
             "metric,value");
   int rows = 0;
   while (std::getline(csv, line)) {
@@ -148,7 +148,7 @@ TEST(CommandLineThreads, RenderIsTheSameWithAnyNumber) {
     const std::filesystem::path path = folder.path() / (threads + ".exr");
     const Result result =
         run({"render", "cornell-checker", "--size", "48x27", "--estimator", "kl", "--threshold",
-             "0.004", "--frames", "5", "--threads", threads, "-o", path.string()});
+             "0.004", "--passes", "5", "--threads", threads, "-o", path.string()});
     ASSERT_EQ(result.code, 0) << result.error;
     images.push_back(read_exr(path));
   }
@@ -171,11 +171,11 @@ TEST(CommandLine, RenderStopsAtItsConditions) {
     return std::stoi(read_exr(path).attributes.at("samples")) / 64;
   };
   EXPECT_EQ(samples({}), 15);
-  EXPECT_EQ(samples({"--frames", "3"}), 3);
+  EXPECT_EQ(samples({"--passes", "3"}), 3);
   EXPECT_EQ(samples({"--spp", "20"}), 20);
-  EXPECT_EQ(samples({"--spp", "20", "--frames", "4"}), 4);
+  EXPECT_EQ(samples({"--spp", "20", "--passes", "4"}), 4);
   EXPECT_EQ(samples({"--seconds", "1e-9"}), 1);
-  EXPECT_EQ(samples({"--frames", "20", "--max-spp", "6"}), 6) << "no condition would ever be met";
+  EXPECT_EQ(samples({"--passes", "20", "--max-spp", "6"}), 6) << "no condition would ever be met";
 }
 
 TEST(CommandLine, ListWalksTheTables) {

@@ -26,7 +26,7 @@ class ModeOption : public testing::Test {
   /// Each estimator in each mode, into a folder.
   void figure_of_all(const std::string& out, const std::string& threads) const {
     std::vector<std::string> words{
-        "figure",    "cornell-box", "--size",      "20x15",         "--frames", "4",
+        "figure",    "cornell-box", "--size",      "20x15",         "--passes", "4",
         "--threads", threads,       "--reference", path("ref.exr"), "--out",    path(out)};
     for (const Estimator& row : estimators()) {
       for (const SampleUseRow& use : sample_uses()) {
@@ -72,7 +72,7 @@ TEST_F(ModeOption, FilesSayTheModeAndWhatThePilotTook) {
   make_reference();
   const auto render = [&](const std::string& mode) {
     const Result result =
-        run({"render", "cornell-box", "--size", "20x15", "--estimator", "kl", "--frames", "4",
+        run({"render", "cornell-box", "--size", "20x15", "--estimator", "kl", "--passes", "4",
              "--mode", mode, "-o", path(fmt::format("{}.exr", mode))});
     EXPECT_EQ(result.code, 0) << result.error;
     return read_exr(path(fmt::format("{}.exr", mode)));
@@ -113,9 +113,9 @@ TEST_F(ModeOption, WrongUsageIsOneLine) {
 TEST_F(ModeOption, AShortMemoryIsToldOnce) {
   for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
            {"render", "cornell-box", "--size", "60x40", "--spp", "64", "-o", path("a.exr")},
-           {"screenshot", "cornell-box", "--render-size", "60x40", "--frames", "64", "-o",
+           {"screenshot", "cornell-box", "--render-size", "60x40", "--passes", "64", "-o",
             path("a.png")},
-           {"bias", "cornell-box", "--size", "60x40", "--frames", "64", "--seeds", "2",
+           {"bias", "cornell-box", "--size", "60x40", "--passes", "64", "--seeds", "2",
             "--estimators", "kl", "--out", path("bias")},
            {"claims", "--size", "96x54", "--seeds", "1", "--reference-spp", "8"}}) {
     SCOPED_TRACE(words.front());

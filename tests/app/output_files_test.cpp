@@ -25,7 +25,7 @@ TEST(ShellWords, AreTextWhateverTheyAreMadeOf) {
 TEST(OutputFiles, ASetIsOfOneRunInAFolderOfAnyName) {
   const TempFolder folder;
   const std::filesystem::path out = folder / "caf\xe9";
-  const Result result = run({"figure", "cornell-box", "--size", "16x9", "--frames", "1",
+  const Result result = run({"figure", "cornell-box", "--size", "16x9", "--passes", "1",
                              "--estimators", "kl,uniform", "--out", out.string()});
   ASSERT_EQ(result.code, 0) << result.error;
   const auto json = nlohmann::json::parse(bytes_of(out / "panels.json"));
@@ -59,7 +59,7 @@ TEST(OutputFiles, WhatCouldNotBeReadAgainIsRefusedBeforeTheWork) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"render", "cornell-box", "--spp", "1", "-o", out},
            {"reference", "cornell-box", "--spp", "2", "-o", out},
-           {"bias", "cornell-box", "--frames", "1", "--out", folder.path().string()}}) {
+           {"bias", "cornell-box", "--passes", "1", "--out", folder.path().string()}}) {
     std::vector<std::string> wide = words;
     wide.insert(wide.end(), {"--size", "65537x1"});
     const Result result = run(wide);

@@ -125,10 +125,10 @@ TEST(Output, EveryCsvTakesEveryNameOfAScene) {
   const std::string scene = small_scene(folder, name).string();
   const std::string out = (folder / "out").string();
   for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"figure", scene, "--frames", "1", "--out", out},
-        std::vector<std::string>{"bias", scene, "--frames", "1", "--seeds", "2", "--estimators",
+       {std::vector<std::string>{"figure", scene, "--passes", "1", "--out", out},
+        std::vector<std::string>{"bias", scene, "--passes", "1", "--seeds", "2", "--estimators",
                                  "kl", "--out", out},
-        std::vector<std::string>{"sweep", scene, "--frames", "1", "--thresholds", "1",
+        std::vector<std::string>{"sweep", scene, "--passes", "1", "--thresholds", "1",
                                  "--estimators", "kl", "--reference-spp", "2", "--spp", "2",
                                  "--out", out}}) {
     const Result result = run(words);
@@ -206,7 +206,7 @@ TEST(Output, CountsOfChannelsAndNamesOfFilesAreThoseThatAreWritten) {
   const LaneOptions lanes{{}, {"contrast", "kl", "kl:0.1", "uniform"}};
   std::vector<std::string> words{"figure",      "synthetic:constant",
                                  "--size",      "8x8",
-                                 "--frames",    "2",
+                                 "--passes",    "2",
                                  "--out",       (folder / "out").string(),
                                  "--reference", (folder / "ref.exr").string()};
   for (const std::string& lane : lanes.lanes) {
@@ -234,12 +234,12 @@ TEST(Output, NamesThatCannotBeWrittenAreRefusedBefore) {
   const auto in = [&](const std::string& name) { return (folder / name).string(); };
   // With more work than a test has time for: it must end before that.
   const std::vector<std::vector<std::string>> commands{
-      {"figure", "cornell-box", "--frames", "1000000000", "--out", out},
-      {"render", "cornell-box", "--frames", "1000000000", "-o", in("a.exr")},
-      {"render", "cornell-box", "--frames", "1000000000", "-o", in("a.png")},
-      {"render", "cornell-box", "--frames", "1000000000", "-o", in("pipe.exr")},
-      {"render", "cornell-box", "--frames", "1000000000", "-o", long_name},
-      {"screenshot", "cornell-box", "--frames", "1000000000", "-o", in("a.png")},
+      {"figure", "cornell-box", "--passes", "1000000000", "--out", out},
+      {"render", "cornell-box", "--passes", "1000000000", "-o", in("a.exr")},
+      {"render", "cornell-box", "--passes", "1000000000", "-o", in("a.png")},
+      {"render", "cornell-box", "--passes", "1000000000", "-o", in("pipe.exr")},
+      {"render", "cornell-box", "--passes", "1000000000", "-o", long_name},
+      {"screenshot", "cornell-box", "--passes", "1000000000", "-o", in("a.png")},
       {"reference", "cornell-box", "--spp", "4000000000", "-o", in("a.exr")},
       {"claims", "--size", "96x54", "--seeds", "10000", "--csv", in("a.csv")}};
   const std::set<std::string> before = names_in(folder.path());

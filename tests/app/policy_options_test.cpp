@@ -117,11 +117,11 @@ TEST(PolicyOptions, AsManySamplesAsAreAskedForCanBeTaken) {
   EXPECT_EQ(most({}), usual);
   EXPECT_EQ(most({.spp = usual}), usual);
   EXPECT_EQ(most({.spp = usual + 1.0}), most_spp);
-  EXPECT_EQ(most({.frames = usual + 1}), most_spp);
+  EXPECT_EQ(most({.passes = usual + 1}), most_spp);
   PolicyOptions capped;
   capped.max_spp = 100;
-  EXPECT_EQ(most({.frames = usual + 1}, capped), 100u);
-  EXPECT_EQ(most({.frames = usual + 1}, {}, "uniform:max-spp=70"), 70u);
+  EXPECT_EQ(most({.passes = usual + 1}, capped), 100u);
+  EXPECT_EQ(most({.passes = usual + 1}, {}, "uniform:max-spp=70"), 70u);
 }
 
 TEST(PolicyOptions, ContradictionsAreRefused) {
@@ -147,13 +147,13 @@ TEST(PolicyOptions, WhatIsCappedIsTold) {
     EXPECT_EQ(result.code, 0) << result.error;
     return result.error;
   };
-  EXPECT_EQ(said({"--frames", "3"}), "");
-  EXPECT_EQ(said({"--frames", "9", "--max-spp", "6"}),
-            "quartet: uniform ended after 6 frames, at 6.00 mean spp, before --frames 9: no pixel "
+  EXPECT_EQ(said({"--passes", "3"}), "");
+  EXPECT_EQ(said({"--passes", "9", "--max-spp", "6"}),
+            "quartet: uniform ended after 6 passes, at 6.00 mean spp, before --passes 9: no pixel "
             "may have another sample; 64 of 64 have the 6 that --max-spp allows\n");
   EXPECT_EQ(
       said({"--estimator", "kl", "--threshold", "1e9", "--policy", "two-level", "--spp", "30"}),
-      "quartet: kl ended after 1 frames, at 1.00 mean spp, before --spp 30: no pixel wants "
+      "quartet: kl ended after 1 passes, at 1.00 mean spp, before --spp 30: no pixel wants "
       "another sample\n");
 }
 
@@ -161,11 +161,11 @@ TEST(PolicyOptions, StudiesTellOfWhatIsCapped) {
   const TempFolder folder;
   const std::string capped = "64 of 64 pixels have the 6 samples that --max-spp allows\n";
   for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
-           {"bias", "cornell-box", "--estimators", "kl", "--frames", "9", "--seeds", "2", "--out",
+           {"bias", "cornell-box", "--estimators", "kl", "--passes", "9", "--seeds", "2", "--out",
             (folder / "bias").string()},
-           {"sweep", "cornell-box", "--estimators", "kl", "--frames", "9", "--spp", "6", "--seeds",
+           {"sweep", "cornell-box", "--estimators", "kl", "--passes", "9", "--spp", "6", "--seeds",
             "1", "--thresholds", "1", "--reference-spp", "2", "--out", (folder / "sweep").string()},
-           {"calibrate", "cornell-box", "--estimators", "kl", "--frames", "9", "--spp", "6"}}) {
+           {"calibrate", "cornell-box", "--estimators", "kl", "--passes", "9", "--spp", "6"}}) {
     SCOPED_TRACE(words.front());
     words.insert(words.end(), {"--size", "8x8"});
     Result result = run(words);

@@ -207,7 +207,7 @@ TEST(RealWindow, ADragAndAKeyArriveAndItCloses) {
   EXPECT_GT(std::stof(command.substr(lane + 10)), 0.0052f) << command;
   EXPECT_NE(command.find("--lane chi2:0.007,"), std::string::npos) << command;
 
-  // Endless frames, and the window is closed in the middle of them, as at the end of a session.
+  // Endless passes, and the window is closed in the middle of them, as at the end of a session.
   program.send(SIGTERM);
   ASSERT_TRUE(wait_for([&] { return program.ended(); }, std::chrono::seconds(60)));
   EXPECT_EQ(program.exit_code(), 0) << bytes_of(folder / "log");

@@ -30,13 +30,13 @@ class StopOptions : public testing::Test {
     ASSERT_EQ(result.code, 0) << result.error;
   }
 
-  /// Frames that a render takes.
-  std::uint64_t frames(const std::vector<std::string>& more) const {
+  /// Passes that a render takes.
+  std::uint64_t passes(const std::vector<std::string>& more) const {
     const Result result =
         run(with({"render", "cornell-box", "--size", "20x15", "-o", path("a.exr")}, more));
     EXPECT_EQ(result.code, 0) << result.error;
     const auto settings = nlohmann::json::parse(read_exr(path("a.exr")).attributes.at("settings"));
-    return settings.at("frames").get<std::uint64_t>();
+    return settings.at("passes").get<std::uint64_t>();
   }
 
   TempFolder folder_;
@@ -44,33 +44,44 @@ class StopOptions : public testing::Test {
 
 TEST_F(StopOptions, RenderStopsAtTheFirstCondition) {
   make_reference();
-  EXPECT_EQ(frames({}), 15u);
-  EXPECT_EQ(frames({"--frames", "4"}), 4u);
-  EXPECT_EQ(frames({"--spp", "6"}), 6u) << "a sample a frame";
-  EXPECT_EQ(frames({"--spp", "5.5"}), 6u);
-  EXPECT_EQ(frames({"--spp", "6", "--frames", "4"}), 4u);
-  EXPECT_EQ(frames({"--spp", "3", "--frames", "4", "--seconds", "1000"}), 3u);
-  EXPECT_EQ(frames({"--seconds", "1e-9", "--frames", "50"}), 1u);
+  EXPECT_EQ(passes({}), 15u);
+  EXPECT_EQ(passes({"--passes", "4"}), 4u);
+  EXPECT_EQ(passes({"--spp", "6"}), 6u) << "a sample a pass";
+  EXPECT_EQ(passes({"--spp", "5.5"}), 6u);
+  EXPECT_EQ(passes({"--spp", "6", "--passes", "4"}), 4u);
+  EXPECT_EQ(passes({"--spp", "3", "--passes", "4", "--seconds", "1000"}), 3u);
+  EXPECT_EQ(passes({"--seconds", "1e-9", "--passes", "50"}), 1u);
   // A sample takes at least the ray from the camera, and here some four more.
-  EXPECT_EQ(frames({"--rays", "1", "--frames", "50"}), 1u);
-  const std::uint64_t by_rays = frames({"--rays", "60", "--frames", "50"});
+  EXPECT_EQ(passes({"--rays", "1", "--passes", "50"}), 1u);
+  const std::uint64_t by_rays = passes({"--rays", "60", "--passes", "50"});
   EXPECT_GT(by_rays, 4u);
   EXPECT_LT(by_rays, 40u);
-  // The error of each frame, as compare measures it, says where it should have stopped.
+  // The error of each pass, as compare measures it, says where it should have stopped.
   const std::uint64_t stopped =
-      frames({"--error", "relmse=0.05", "--frames", "500", "--reference", path("ref.exr")});
+      passes({"--error", "relmse=0.05", "--passes", "500", "--reference", path("ref.exr")});
   EXPECT_GT(stopped, 1u);
   EXPECT_LT(stopped, 500u);
   const auto relmse = [&](std::uint64_t count) {
-    EXPECT_EQ(frames({"--frames", std::to_string(count)}), count);
+    EXPECT_EQ(passes({"--passes", std::to_string(count)}), count);
     return metric(MetricId::relmse)
         .compute(radiance_of(read_exr(path("a.exr")), "a.exr"),
                  load_reference(path("ref.exr"))->image);
   };
   EXPECT_LE(relmse(stopped), 0.05);
   EXPECT_GT(relmse(stopped - 1), 0.05);
-  EXPECT_EQ(frames({"--error", "relmse=1e-9", "--frames", "5", "--reference", path("ref.exr")}),
+  EXPECT_EQ(passes({"--error", "relmse=1e-9", "--passes", "5", "--reference", path("ref.exr")}),
             5u);
+}
+
+TEST_F(StopOptions, FramesIsAnotherNameOfPasses) {
+  EXPECT_EQ(passes({"--frames", "4"}), 4u);
+  for (const char* command : {"render", "figure", "screenshot", "sweep", "calibrate", "bias"}) {
+    const Result result = run({command, "cornell-box", "--frames", "0"});
+    EXPECT_EQ(result.code, 2) << command;
+    EXPECT_NE(result.error.find("--passes: '0' is not"), std::string::npos) << result.error;
+  }
+  const Result claims = run({"claims", "--frames", "0"});
+  EXPECT_NE(claims.error.find("--passes: '0' is not"), std::string::npos) << claims.error;
 }
 
 TEST_F(StopOptions, EachLaneOfAFigureHasAnEndOfItsOwn) {
@@ -106,7 +117,7 @@ TEST_F(StopOptions, EachLaneOfAFigureHasAnEndOfItsOwn) {
     }
     const double mse = lane.at("metrics").at("mse").get<double>();
     EXPECT_NEAR(squared, mse, 1e-5 * mse) << id;
-    // Every metric and the efficiency, of the last frame alone.
+    // Every metric and the efficiency, of the last pass alone.
     std::istringstream lines(csv);
     std::size_t rows = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -119,7 +130,7 @@ TEST_F(StopOptions, EachLaneOfAFigureHasAnEndOfItsOwn) {
     EXPECT_EQ(rows, 2u) << id;
   }
   EXPECT_EQ(json.at("lanes")[0].at("history").size(), 12u);
-  EXPECT_LT(json.at("lanes")[2].at("history").size(), 12u) << "contrast takes more a frame";
+  EXPECT_LT(json.at("lanes")[2].at("history").size(), 12u) << "contrast takes more a pass";
 }
 
 TEST_F(StopOptions, AScreenshotShowsAllLanesWhereTheLastOneEnds) {
@@ -135,7 +146,7 @@ TEST_F(StopOptions, AScreenshotShowsAllLanesWhereTheLastOneEnds) {
     std::size_t last = 0;
     const auto json = nlohmann::json::parse(bytes_of(path("out/panels.json")));
     for (const auto& lane : json.at("lanes")) {
-      last = std::max(last, lane.at("history").back().at("frame").get<std::size_t>());
+      last = std::max(last, lane.at("history").back().at("pass").get<std::size_t>());
     }
     ASSERT_GT(last, 2u);
     // Of the lanes' pictures and heatmaps: times differ from run to run.
@@ -154,16 +165,16 @@ TEST_F(StopOptions, AScreenshotShowsAllLanesWhereTheLastOneEnds) {
       }
       return inside;
     };
-    const auto of_frame = [&](std::size_t frame) {
-      std::vector<std::string> words{"--frames", std::to_string(frame)};
+    const auto of_pass = [&](std::size_t pass) {
+      std::vector<std::string> words{"--passes", std::to_string(pass)};
       if (condition.size() > 2) {  // the dock takes the same room
         words.insert(words.end(), {"--reference", path("ref.exr")});
       }
       return pictures(words);
     };
     const std::vector<Rgba8> found = pictures(condition);
-    EXPECT_EQ(found, of_frame(last));
-    EXPECT_NE(found, of_frame(last - 1));
+    EXPECT_EQ(found, of_pass(last));
+    EXPECT_NE(found, of_pass(last - 1));
   }
 }
 
@@ -174,7 +185,7 @@ TEST_F(StopOptions, WrongUsageOfEveryCommandThatHasThem) {
       {"screenshot", "cornell-box", "--render-size", "20x15", "-o", path("a.png")}};
   for (const auto& command : commands) {
     SCOPED_TRACE(command.front());
-    for (const char* option : {"--frames", "--spp", "--seconds"}) {
+    for (const char* option : {"--passes", "--spp", "--seconds"}) {
       for (const char* value : {"0", "-1", "nan", "many"}) {
         expect_usage_error(with(command, {option, value}), option);
       }

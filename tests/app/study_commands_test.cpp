@@ -25,7 +25,7 @@ class StudyCommands : public testing::Test {
     return words;
   }
   static std::vector<std::string> bias(const std::vector<std::string>& more) {
-    return with({"bias", "cornell-box", "--size", "12x9", "--frames", "3", "--seeds", "2"}, more);
+    return with({"bias", "cornell-box", "--size", "12x9", "--passes", "3", "--seeds", "2"}, more);
   }
   static std::vector<std::string> stability(const std::vector<std::string>& more) {
     return with({"stability", "--cases", "bernoulli", "--estimators", "kl", "--seeds", "2"}, more);
@@ -91,7 +91,7 @@ TEST_F(StudyCommands, WhatIsNamedTwiceIsStudiedOnce) {
 
 TEST_F(StudyCommands, RejectedSamplesAreToldInOneLine) {
   for (const auto& words :
-       {std::vector<std::string>{"bias", "synthetic:non-finite", "--estimators", "kl", "--frames",
+       {std::vector<std::string>{"bias", "synthetic:non-finite", "--estimators", "kl", "--passes",
                                  "4", "--seeds", "2", "--out", path("bias")},
         std::vector<std::string>{"stability", "--cases", "non-finite,bernoulli", "--estimators",
                                  "kl", "--seeds", "2", "--out", path("stability")}}) {
@@ -120,7 +120,7 @@ TEST_F(StudyCommands, RejectedSamplesAreToldInOneLine) {
 TEST_F(StudyCommands, WrongUsageIsOneLine) {
   const std::vector<std::string> out{"--out", path("out")};
   for (const char* value : {"0", "-1", "nan", "many"}) {
-    for (const char* option : {"--frames", "--seeds", "--confidence"}) {
+    for (const char* option : {"--passes", "--seeds", "--confidence"}) {
       expect_usage_error(bias(with(out, {option, value})), option);
     }
     expect_usage_error(bias(with(out, {"--lane", std::string("kl:") + value})), "--lane");

@@ -25,7 +25,7 @@ class SweepCommands : public testing::Test {
   ~SweepCommands() override { ::unsetenv("XDG_CACHE_HOME"); }
 
   std::vector<std::string> sweep(std::vector<std::string> more) const {
-    std::vector<std::string> words{"sweep", "cornell-box", "--size",  "16x16", "--frames",     "4",
+    std::vector<std::string> words{"sweep", "cornell-box", "--size",  "16x16", "--passes",     "4",
                                    "--spp", "10",          "--seeds", "2",     "--thresholds", "3"};
     if (std::ranges::find(more, "--reference") == more.end()) {
       words.insert(words.end(), {"--reference-spp", "32"});
@@ -51,7 +51,7 @@ TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
                                           "calibration.svg", "quartet-files.txt"}));
   const auto rows = rows_of(bytes_of(folder_.path() / "out" / "sweep.csv"));
   EXPECT_EQ(rows[0], (std::vector<std::string>{"scene", "estimator", "policy", "mode", "thresholds",
-                                               "seed", "frame", "seconds", "rays", "samples",
+                                               "seed", "pass", "seconds", "rays", "samples",
                                                "mean_spp", "metric", "value"}));
   std::map<std::string, int> metrics;
   std::set<std::string> seeds;
@@ -67,7 +67,7 @@ TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
     EXPECT_EQ(metrics["kl " + name], 3 * 2) << name;
     EXPECT_EQ(metrics["contrast " + name], 3 * 2) << name;
   }
-  // The baseline at frames 1, 2, 4, 8, 10.
+  // The baseline at passes 1, 2, 4, 8, 10.
   EXPECT_EQ(metrics["uniform relmse"], 5 * 2);
   EXPECT_GT(rows_of(bytes_of(folder_.path() / "out" / "calibration.csv")).size(), 10u);
 }
@@ -104,7 +104,7 @@ TEST_F(SweepCommands, RejectedSamplesAreToldInOneLine) {
         << result.error;
   };
   expect_told(
-      run({"sweep", "synthetic:non-finite", "--size", "8x8", "--reference-spp", "4", "--frames",
+      run({"sweep", "synthetic:non-finite", "--size", "8x8", "--reference-spp", "4", "--passes",
            "4", "--seeds", "2", "--thresholds", "1", "--estimators", "kl", "--out", out()}));
   expect_told(run(
       {"calibrate", "synthetic:non-finite", "--size", "8x8", "--spp", "20", "--estimators", "kl"}));
@@ -137,7 +137,7 @@ TEST_F(SweepCommands, SweepRefusesBadInput) {
 }
 
 TEST_F(SweepCommands, CalibrateMeetsABudgetThatItsLanesReproduce) {
-  const auto result = run({"calibrate", "cornell-box", "--size", "48x48", "--spp", "12", "--frames",
+  const auto result = run({"calibrate", "cornell-box", "--size", "48x48", "--spp", "12", "--passes",
                            "8", "--estimators", "kl,contrast,uniform", "--json"});
   ASSERT_EQ(result.code, 0) << result.error;
   const auto json = nlohmann::json::parse(result.out);
@@ -147,7 +147,7 @@ TEST_F(SweepCommands, CalibrateMeetsABudgetThatItsLanesReproduce) {
     EXPECT_TRUE(entry.at("met").get<bool>()) << entry.dump();
     EXPECT_NEAR(entry.at("mean_spp").get<double>(), 12.0, 0.13);
     const Estimator& row = find_estimator(entry.at("estimator").get<std::string>());
-    EXPECT_EQ(entry.at("frames"), row.channels > 0 ? 8 : 12);
+    EXPECT_EQ(entry.at("passes"), row.channels > 0 ? 8 : 12);
     EXPECT_EQ(entry.at("thresholds").size(), std::size_t(row.channels));
     for (std::size_t c = 0; c < std::size_t(row.channels); ++c) {
       EXPECT_FLOAT_EQ(entry.at("thresholds")[c].get<float>(),
@@ -158,8 +158,8 @@ TEST_F(SweepCommands, CalibrateMeetsABudgetThatItsLanesReproduce) {
     EXPECT_FALSE(entry.contains("reason"));
   }
   EXPECT_EQ(json.at("scene"), "cornell-box");
-  EXPECT_EQ(json.at("frames"), 8);
-  const auto figure = run({"figure", "cornell-box", "--size", "48x48", "--frames", "8", "--lane",
+  EXPECT_EQ(json.at("passes"), 8);
+  const auto figure = run({"figure", "cornell-box", "--size", "48x48", "--passes", "8", "--lane",
                            json.at("estimators")[0].at("lane").get<std::string>(), "--out", out()});
   ASSERT_EQ(figure.code, 0) << figure.error;
   const auto panels = nlohmann::json::parse(bytes_of(folder_.path() / "out" / "panels.json"));
@@ -173,7 +173,7 @@ TEST_F(SweepCommands, CalibrateSaysWhatCannotBeMet) {
            "--first-samples", "2", "--batch-samples", "1"});
   EXPECT_EQ(result.code, 1);
   EXPECT_EQ(result.error, "quartet: 6 spp cannot be met by kl\n");
-  EXPECT_NE(result.out.find("kl: 6 spp cannot be met: 15 frames of vote take at least 15 spp"),
+  EXPECT_NE(result.out.find("kl: 6 spp cannot be met: 15 passes of vote take at least 15 spp"),
             std::string::npos)
       << result.out;
   // The command is of the other one, and says so where it can be pasted into a shell.
@@ -192,7 +192,7 @@ TEST_F(SweepCommands, CalibrateSaysWhatCannotBeMet) {
 
 TEST_F(SweepCommands, CalibrateMeetsAnErrorAgainstAReferenceThatItMakes) {
   const auto result =
-      run({"calibrate", "cornell-box", "--size", "24x24", "--error", "relmse=0.02", "--frames", "8",
+      run({"calibrate", "cornell-box", "--size", "24x24", "--error", "relmse=0.02", "--passes", "8",
            "--estimators", "kl", "--reference-spp", "64", "--json"});
   const auto entry = nlohmann::json::parse(result.out).at("estimators")[0];
   EXPECT_EQ(result.code, entry.at("met").get<bool>() ? 0 : 1) << result.error;
@@ -202,7 +202,7 @@ TEST_F(SweepCommands, CalibrateMeetsAnErrorAgainstAReferenceThatItMakes) {
 
 TEST_F(SweepCommands, ClaimsJudgesEveryFinding) {
   const std::string csv = (folder_.path() / "claims.csv").string();
-  const std::vector<std::string> words{"claims", "--size",  "64x36", "--frames",
+  const std::vector<std::string> words{"claims", "--size",  "64x36", "--passes",
                                        "4",      "--seeds", "2",     "--reference-spp",
                                        "32",     "--csv",   csv};
   const auto text = run(words);

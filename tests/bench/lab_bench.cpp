@@ -10,7 +10,7 @@
 namespace quartet {
 namespace {
 
-constexpr std::uint32_t frames = 15;
+constexpr std::uint32_t passes = 15;
 constexpr int width = 480;
 constexpr int height = 270;
 
@@ -25,8 +25,8 @@ std::vector<SamplingPolicy> four_policies() {
 
 double run(Lab& lab) {
   const Stopwatch watch;
-  while (lab.frame() < frames) {
-    lab.run_frame();
+  while (lab.pass() < passes) {
+    lab.run_pass();
   }
   return watch.seconds();
 }

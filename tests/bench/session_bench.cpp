@@ -43,12 +43,12 @@ class Client {
  public:
   Session& session() { return session_; }
 
-  /// Submits a request, and returns once its snapshot at `frame` is there.
-  void ask(LabRequest request, std::uint32_t frame) {
+  /// Submits a request, and returns once its snapshot at `pass` is there.
+  void ask(LabRequest request, std::uint32_t pass) {
     const std::uint64_t number = session_.submit(std::move(request));
     const auto answered = [&] {
       const auto snapshot = session_.latest();
-      return snapshot && snapshot->request >= number && snapshot->frame == frame;
+      return snapshot && snapshot->request >= number && snapshot->pass == pass;
     };
     std::unique_lock lock(mutex_);
     while (!answered()) {
@@ -77,7 +77,7 @@ void calls_while_busy(benchmark::State& state) {
   Client client;
   Session& session = client.session();
   LabRequest request = lab_request(4, 0);
-  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.pass = LaneRequest::no_end;
   client.ask(request, 1);
   std::vector<double> submits;
   std::vector<double> latests;
@@ -104,7 +104,7 @@ void calls_while_busy(benchmark::State& state) {
 BENCHMARK(calls_while_busy)->Iterations(2000)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// From the request with other thresholds to the snapshot that answers it, all samples stored;
-/// `measured`: with a reference, against which each frame is measured.
+/// `measured`: with a reference, against which each pass is measured.
 void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dragged, int threads,
                       bool measured = false) {
   Client client;
@@ -121,7 +121,7 @@ void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dr
             original[i].thresholds[c] * (1.0f + 0.01f * float(step));
       }
     }
-    client.ask(request, request.lanes.frame);
+    client.ask(request, request.lanes.pass);
   };
   constexpr int steps = 10;
   for (int step = 0; step < steps; ++step) {
@@ -164,7 +164,7 @@ BENCHMARK(camera_to_first_picture)->Unit(benchmark::kMillisecond)->UseRealTime()
 
 void close_while_busy(benchmark::State& state) {
   LabRequest request = lab_request(4, 2);
-  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.pass = LaneRequest::no_end;
   for (auto _ : state) {
     state.PauseTiming();
     auto client = std::make_unique<Client>();
@@ -176,14 +176,14 @@ void close_while_busy(benchmark::State& state) {
 }
 BENCHMARK(close_while_busy)->Iterations(5)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-Snapshot four_lanes_after(std::uint32_t frames) {
+Snapshot four_lanes_after(std::uint32_t passes) {
   const LabRequest request = lab_request(4, 2);
   LabOptions options;
   options.statistics.variance = true;
   Lab lab(sample_source(request.store.scene, request.store.settings), width, height,
           request.lanes.policies, options);
-  while (lab.frame() < frames) {
-    lab.run_frame();
+  while (lab.pass() < passes) {
+    lab.run_pass();
   }
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
@@ -194,8 +194,8 @@ void copy_of_four_lanes(benchmark::State& state) {
   const LabRequest request = lab_request(4, 2);
   Lab lab(sample_source(request.store.scene, request.store.settings), width, height,
           request.lanes.policies);
-  while (lab.frame() < 15) {
-    lab.run_frame();
+  while (lab.pass() < 15) {
+    lab.run_pass();
   }
   Snapshot snapshot;
   for (auto _ : state) {

@@ -131,8 +131,8 @@ void two_threads_against_one(benchmark::State& state) {
   for (auto _ : state) {
     for (const int threads : {1, 2}) {
       Lab lab = bench.lab(std::span(&uniform, 1), threads);
-      for (int frame = 0; frame < 4; ++frame) {
-        lab.run_frame();
+      for (int pass = 0; pass < 4; ++pass) {
+        lab.run_pass();
       }
       seconds[threads - 1] += lab.store().seconds();
       samples += threads == 1 ? lab.store().traced() : 0;

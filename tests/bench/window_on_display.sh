@@ -27,7 +27,7 @@ start_window() {
 }
 
 start_window cornell-checker
-sleep 4 # in the middle of the first fifteen frames
+sleep 4 # in the middle of the first fifteen passes
 before=$(milliseconds)
 xdotool key q
 wait "$process"
@@ -35,7 +35,7 @@ echo "closing while rendering: $(($(milliseconds) - before)) ms (target: under 5
 
 start_window cornell-checker
 busy=1
-while [ "$busy" -gt 0 ]; do # until the frames are done
+while [ "$busy" -gt 0 ]; do # until the passes are done
     last=$(ticks)
     sleep 2
     now=$(ticks)

@@ -84,7 +84,7 @@ Snapshot snapshot_of(int number) {
   LabOptions options;
   options.threads = 1;
   Lab lab(sample_source(scene(), of), of.width, of.height, policies, options);
-  lab.run_frame();
+  lab.run_pass();
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
   snapshot.scene = scene();

@@ -204,7 +204,7 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
   SamplingPolicy policy = default_policy(EstimatorId::contrast);
   Lab lab(half_noise(), 16, 8, std::span(&policy, 1));
   for (int i = 0; i < 5; ++i) {
-    lab.run_frame();
+    lab.run_pass();
   }
   const Lane& lane = lab.lanes()[0];
   const std::vector<float> scaled = largest_scaled_errors(lane);
@@ -232,7 +232,7 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
 
   policy = default_policy(EstimatorId::uniform);
   Lab plain(half_noise(), 16, 8, std::span(&policy, 1));
-  plain.run_frame();
+  plain.run_pass();
   EXPECT_TRUE(std::isnan(quality_of(plain.lanes()[0], truth).rank_correlation));
   EXPECT_TRUE(quality_of(plain.lanes()[0], truth).calibration.empty());
 }
@@ -244,7 +244,7 @@ TEST(EstimatorQuality, APixelWithFewerSamplesThanTheMinimumIsNotDone) {
   policy.allocation.kind = AllocationId::vote;
   ASSERT_EQ(minimum_samples(policy), 5u);
   Lab lab(half_noise(), 16, 8, std::span(&policy, 1));
-  lab.run_frame();
+  lab.run_pass();
   ASSERT_LT(std::ranges::max(lab.lanes()[0].taken()), 5u);
   const std::vector<float> even(128, 1.0f);
   EXPECT_EQ(quality_of(lab.lanes()[0], even).stops.done, 0u);

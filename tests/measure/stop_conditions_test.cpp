@@ -14,17 +14,17 @@ namespace {
 constexpr std::size_t measured_pixels = 100;
 constexpr double no_error = 0.0;
 
-FrameRecord record(std::uint32_t frame, double mean_spp, double seconds) {
-  FrameRecord record;
-  record.frame = frame;
+PassRecord record(std::uint32_t pass, double mean_spp, double seconds) {
+  PassRecord record;
+  record.pass = pass;
   record.samples = std::uint64_t(mean_spp * double(measured_pixels));
   record.seconds = seconds;
   return record;
 }
 
-StopConditions frames(std::uint32_t count) {
+StopConditions passes(std::uint32_t count) {
   StopConditions stop;
-  stop.frames = count;
+  stop.passes = count;
   return stop;
 }
 
@@ -35,20 +35,20 @@ void alternate(int, int, std::uint32_t first, std::span<glm::vec3> radiance) {
   }
 }
 
-std::uint32_t frames_until(const StopConditions& stop, const RadianceImage* reference,
+std::uint32_t passes_until(const StopConditions& stop, const RadianceImage* reference,
                            const SamplingPolicy& policy = default_policy(EstimatorId::uniform)) {
   Lab lab(alternate, 10, 10, std::span(&policy, 1));
   double last = 0.0;
   while (stop.progress(lab.lanes()[0], reference) < 1.0) {
     EXPECT_GE(stop.progress(lab.lanes()[0], reference), 0.0);
-    lab.run_frame();
+    lab.run_pass();
     last += 1.0;
   }
   return std::uint32_t(last);
 }
 
 TEST(StopConditions, EachAloneCountsItsOwn) {
-  StopConditions stop = frames(8);
+  StopConditions stop = passes(8);
   EXPECT_DOUBLE_EQ(stop.progress(record(2, 500, 500), measured_pixels, no_error), 0.25);
   EXPECT_DOUBLE_EQ(stop.progress(record(8, 0, 0), measured_pixels, no_error), 1.0);
   stop = {};
@@ -64,7 +64,7 @@ TEST(StopConditions, EachAloneCountsItsOwn) {
 }
 
 TEST(StopConditions, OfSeveralTheNearestCounts) {
-  StopConditions stop = frames(10);
+  StopConditions stop = passes(10);
   stop.spp = 100.0;
   stop.seconds = 1.0;
   stop.error = ErrorTarget{MetricId::mse, 0.01};
@@ -92,34 +92,34 @@ TEST(StopConditions, ErrorTargetsCountSamplesStillNeeded) {
 
 TEST(StopConditions, LanesStopAtTheFirstOne) {
   const RadianceImage truth(10, 10, glm::vec3(1.0f));
-  StopConditions stop = frames(7);
-  EXPECT_EQ(frames_until(stop, nullptr), 7u);
+  StopConditions stop = passes(7);
+  EXPECT_EQ(passes_until(stop, nullptr), 7u);
   stop.spp = 3.0;
-  EXPECT_EQ(frames_until(stop, nullptr), 3u);
-  stop = frames(7);
+  EXPECT_EQ(passes_until(stop, nullptr), 3u);
+  stop = passes(7);
   stop.error = ErrorTarget{MetricId::rmse, 0.2};  // 1, 0, …
-  EXPECT_EQ(frames_until(stop, &truth), 2u);
-  stop.frames = 1;
-  EXPECT_EQ(frames_until(stop, &truth), 1u);
+  EXPECT_EQ(passes_until(stop, &truth), 2u);
+  stop.passes = 1;
+  EXPECT_EQ(passes_until(stop, &truth), 1u);
   const RadianceImage two(10, 10, glm::vec3(2.0f));
   stop = {};
   stop.error = ErrorTarget{MetricId::rmse, 0.5};
   stop.spp = 50.0;
-  EXPECT_EQ(frames_until(stop, &two), 50u) << "an error that is never reached";
+  EXPECT_EQ(passes_until(stop, &two), 50u) << "an error that is never reached";
 }
 
 TEST(StopConditions, AlsoWhereNoPixelWantsMore) {
   SamplingPolicy policy = default_policy(EstimatorId::uniform);
   policy.max_spp = 5;
-  EXPECT_EQ(frames_until(frames(1000), nullptr, policy), 5u);
+  EXPECT_EQ(passes_until(passes(1000), nullptr, policy), 5u);
 }
 
 /// The end of a lane that has long passed it, and where it would have stopped.
-void expect_end(std::uint32_t frame, const StopConditions& stop, const LaneSnapshot& lane) {
-  EXPECT_EQ(stop.end_of(lane), frame);
+void expect_end(std::uint32_t pass, const StopConditions& stop, const LaneSnapshot& lane) {
+  EXPECT_EQ(stop.end_of(lane), pass);
   LaneSnapshot before = lane;
   before.plan.total = 1;
-  before.history.resize(frame - 1);
+  before.history.resize(pass - 1);
   EXPECT_EQ(stop.end_of(before), std::nullopt);
   EXPECT_LT(stop.progress(before), 1.0);
 }
@@ -128,12 +128,12 @@ TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   LaneSnapshot lane;
   lane.taken.assign(measured_pixels, 12);
   lane.plan.total = 40;
-  for (std::uint32_t frame = 1; frame <= 12; ++frame) {
-    lane.history.push_back(record(frame, 2.0 * frame, 0.1 * frame));
-    lane.history.back().true_error = 1.0 / frame;
+  for (std::uint32_t pass = 1; pass <= 12; ++pass) {
+    lane.history.push_back(record(pass, 2.0 * pass, 0.1 * pass));
+    lane.history.back().true_error = 1.0 / pass;
     lane.history.back().rays = 3 * lane.history.back().samples;
   }
-  expect_end(7, frames(7), lane);
+  expect_end(7, passes(7), lane);
   StopConditions stop;
   stop.spp = 9.0;
   expect_end(5, stop, lane);
@@ -141,44 +141,44 @@ TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   expect_end(4, stop, lane);
   stop.seconds = 0.25;
   expect_end(3, stop, lane);
-  stop = frames(12);
+  stop = passes(12);
   stop.error = ErrorTarget{MetricId::mse, 0.125};
   expect_end(8, stop, lane);
-  for (FrameRecord& each : lane.history) {
+  for (PassRecord& each : lane.history) {
     each.true_error = std::nan("");
   }
   expect_end(12, stop, lane);
-  EXPECT_EQ(frames(13).end_of(lane), std::nullopt);
+  EXPECT_EQ(passes(13).end_of(lane), std::nullopt);
   // No pixel wants more: the lane ended with its last samples.
   lane.plan.total = 0;
   for (std::size_t i = 9; i < 12; ++i) {
     lane.history[i].samples = lane.history[8].samples;
   }
-  expect_end(9, frames(100), lane);
-  EXPECT_EQ(frames(100).progress(lane), 1.0);
+  expect_end(9, passes(100), lane);
+  EXPECT_EQ(passes(100).progress(lane), 1.0);
 }
 
 TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
   // Samples that are 0 and 2 in turn, against a truth of 1: the error is 0 after every second
-  // frame and 1/frame² after the others. Of a long run, every second record is kept, then every
+  // pass and 1/pass² after the others. Of a long run, every second record is kept, then every
   // fourth.
   const SamplingPolicy policy = default_policy(EstimatorId::uniform);
   Lab lab(alternate, 2, 2, std::span(&policy, 1));
   const RadianceImage truth(2, 2, glm::vec3(1.0f));
-  constexpr std::uint32_t passes = 9001;
-  while (lab.frame() < passes) {
-    ASSERT_TRUE(lab.run_frame());
+  constexpr std::uint32_t long_run = 9001;
+  while (lab.pass() < long_run) {
+    ASSERT_TRUE(lab.run_pass());
     lab.measure([&](const Film& film) {
-      // Distinct at every frame, so that a record's error tells whose it is.
-      return metric(MetricId::mse).compute(film.image(), truth) + 1.0 / lab.frame();
+      // Distinct at every pass, so that a record's error tells whose it is.
+      return metric(MetricId::mse).compute(film.image(), truth) + 1.0 / lab.pass();
     });
   }
   LaneSnapshot lane;
   copy_lane(lab.lanes()[0], lane);
-  ASSERT_LE(lane.history.size(), FrameHistory::most_records);
-  for (const FrameRecord& each : lane.history) {
-    const double odd = each.frame % 2 == 1 ? 1.0 / (double(each.frame) * each.frame) : 0.0;
-    ASSERT_NEAR(each.true_error, 1.0 / each.frame + odd, 1e-6);
+  ASSERT_LE(lane.history.size(), PassHistory::most_records);
+  for (const PassRecord& each : lane.history) {
+    const double odd = each.pass % 2 == 1 ? 1.0 / (double(each.pass) * each.pass) : 0.0;
+    ASSERT_NEAR(each.true_error, 1.0 / each.pass + odd, 1e-6);
   }
   StopConditions stop;
   stop.error = ErrorTarget{MetricId::mse, 1.0 / 6000.5};
@@ -195,7 +195,7 @@ TEST(StopConditions, AnErrorTargetNeedsAReferenceOfTheSameSize) {
   stop.error = ErrorTarget{MetricId::mse, 0.5};
   const RadianceImage small(4, 4, glm::vec3(1.0f));
   EXPECT_EQ(stop.progress(lab.lanes()[0], nullptr), 0.0) << "nothing to measure yet";
-  lab.run_frame();
+  lab.run_pass();
   EXPECT_NE(error_of([&] { stop.progress(lab.lanes()[0], nullptr); }).find("needs a reference"),
             std::string::npos);
   EXPECT_NE(error_of([&] { stop.progress(lab.lanes()[0], &small); }).find("4x4"),

@@ -54,7 +54,7 @@ TEST(BiasFiles, EveryColumnAndChannelHoldsItsOwnNumber) {
   const double half = 0.125 * std::tan(0.5 * M_PI * (1.0 - rate));
   const double p = 1.0 - 2.0 / M_PI * std::atan(0.25 / 0.125);
   std::vector<std::string> expected{
-      "scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,metric,"
+      "scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,metric,"
       "value"};
   for (const auto& [mode, first] : {std::tuple{"reuse", 100}, {"unbiased", 200}, {"reuse", 300}}) {
     const std::string lane = head + mode + ",0.25,";

@@ -105,7 +105,7 @@ TEST(ClaimsFiles, JsonHoldsTheSameAndEveryFinding) {
   EXPECT_EQ(json.at("scene"), run.scene->scene().name);
   EXPECT_EQ(json.at("width"), 2);
   EXPECT_EQ(json.at("height"), 1);
-  EXPECT_EQ(json.at("frames"), 15);
+  EXPECT_EQ(json.at("passes"), 15);
   EXPECT_EQ(json.at("seeds"), 2);
   EXPECT_EQ(json.at("reference_spp"), 300);
   EXPECT_EQ(json.at("command_line"), "quartet claims --json");

@@ -45,14 +45,14 @@ Snapshot numbered_snapshot() {
   contrast.rejected = {4, 7};
   contrast.mean = {{{0.5f, 0.25f}, {0.125f, 1.0f}, {0.75f, 2.0f}}};
   contrast.history = {
-      {.frame = 1,
+      {.pass = 1,
        .samples = 6,
        .pilot_samples = 3,
        .rays = 31,
        .max_spp = 2,
        .not_done = 1,
        .seconds = 0.5},
-      {.frame = 2,
+      {.pass = 2,
        .samples = 10,
        .pilot_samples = 5,
        .rays = 52,
@@ -65,7 +65,7 @@ Snapshot numbered_snapshot() {
   kl.policy.allocation.kind = AllocationId::batch;
   kl.mean = {{{0.25f, 0.25f}, {0.25f, 0.25f}, {0.25f, 0.25f}}};
   kl.history = {
-      {.frame = 3, .samples = 15, .rays = 77, .max_spp = 13, .not_done = 0, .seconds = 2.5}};
+      {.pass = 3, .samples = 15, .rays = 77, .max_spp = 13, .not_done = 0, .seconds = 2.5}};
   return snapshot;
 }
 
@@ -92,7 +92,7 @@ TEST(CsvRecord, HasEveryNumberInItsColumn) {
   const std::string kl = scene + ",kl,batch,reuse,0.0625,77,";
   EXPECT_EQ(lines_of(csv_record(snapshot)),
             (std::vector<std::string>{
-                ("scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,mean_spp,"
+                ("scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,"
                  "metric,value"),
                 contrast + "1,0.500000,31,6,3.000000,max_spp,2",
                 contrast + "1,0.500000,31,6,3.000000,pilot_samples,3",
@@ -152,9 +152,9 @@ TEST(JsonRecord, HasEveryNumberUnderItsName) {
       "policy": "two-level", "mode": "unbiased", "first_samples": 3, "batch_samples": 5,
       "multiplier": 0.75, "stochastic_rounding": true, "max_spp": 4321, "rejected": 11,
       "history": [
-        {"frame": 1, "samples": 6, "pilot_samples": 3, "mean_spp": 3.0, "max_spp": 2,
+        {"pass": 1, "samples": 6, "pilot_samples": 3, "mean_spp": 3.0, "max_spp": 2,
          "refined_pixels": 1, "rays": 31, "seconds": 0.5},
-        {"frame": 2, "samples": 10, "pilot_samples": 5, "mean_spp": 5.0, "max_spp": 4,
+        {"pass": 2, "samples": 10, "pilot_samples": 5, "mean_spp": 5.0, "max_spp": 4,
          "refined_pixels": 2, "rays": 52, "seconds": 1.25}]})"));
   const RadianceImage shown = radiance_image(snapshot, 1);
   for (const Metric& row : metrics()) {
@@ -225,7 +225,7 @@ TEST(ExrAttributes, HaveEveryNumberUnderItsName) {
   Snapshot snapshot = numbered_snapshot();
   std::map<std::string, std::string> attributes = exr_attributes("quartet render x", snapshot, 0);
   const json settings = json::parse(attributes.at("settings"));
-  EXPECT_EQ(settings.at("frames"), 2);
+  EXPECT_EQ(settings.at("passes"), 2);
   EXPECT_EQ(settings.at("seed"), 77);
   EXPECT_EQ(settings.at("policy").at("estimator"), "contrast");
   EXPECT_EQ(settings.at("policy").at("max_spp"), 4321);

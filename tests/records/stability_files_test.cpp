@@ -38,7 +38,7 @@ CaseResult counted_case() {
   trial.tuning = Tuning::budget;
   trial.variation = Variation::exposure;
   trial.seed = 3;
-  trial.frames = 6;
+  trial.passes = 6;
   trial.outcome = counted_outcome(100.0);
   trial.outcome.missed = Outcome::unknown;
   result.trials.push_back(trial);
@@ -46,7 +46,7 @@ CaseResult counted_case() {
   trial.tuning = Tuning::usual;
   trial.variation = Variation::resolution;
   trial.seed = 4;
-  trial.frames = 7;
+  trial.passes = 7;
   trial.outcome = counted_outcome(200.0);
   result.trials.push_back(trial);
   return result;
@@ -175,7 +175,7 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
       "43000,40000,200.000000,";
   test::expect_lines(bytes_of(folder / "trials.csv"),
                      {
-                         ("case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,frame,"
+                         ("case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,pass,"
                           "seconds,rays,samples,mean_spp,metric,value"),
                          kl + "relmse,102",
                          kl + "worst,103",

@@ -9,9 +9,9 @@
 namespace quartet {
 namespace {
 
-Measurement counted_measurement(std::uint32_t frame, double first) {
+Measurement counted_measurement(std::uint32_t pass, double first) {
   Measurement measurement;
-  measurement.record.frame = frame;
+  measurement.record.pass = pass;
   measurement.record.rays = std::uint64_t(first) + 4;
   measurement.record.samples = std::uint64_t(first) + 1;
   measurement.record.seconds = first + 0.5;
@@ -45,7 +45,7 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
   const std::string kl = scene + ",kl,converge,unbiased,0.25,";
   test::expect_lines(sweep_csv(report),
                      {
-                         ("scene,estimator,policy,mode,thresholds,seed,frame,seconds,rays,samples,"
+                         ("scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,"
                           "mean_spp,metric,value"),
                          uniform + "40,1,10.500000,14,11,10.250000,mse,12",
                          uniform + "40,1,10.500000,14,11,10.250000,flip,13",

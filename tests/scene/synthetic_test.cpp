@@ -177,8 +177,8 @@ TEST(Synthetic, IsOpenedByNameAndFeedsALab) {
   Lab lab(sample_source(std::make_shared<const TraceScene>(open_scene("synthetic:non-finite")),
                         settings),
           settings.width, settings.height, std::span(&policy, 1));
-  for (int frame = 0; frame < 8; ++frame) {
-    ASSERT_TRUE(lab.run_frame());
+  for (int pass = 0; pass < 8; ++pass) {
+    ASSERT_TRUE(lab.run_pass());
   }
   const Film& film = lab.lanes().front().film();
   // 2 in 100 of 49 152 samples, five standard deviations.

@@ -23,7 +23,7 @@ EqualiseRequest request_for(const CommonBudget& budget) {
 
 CommonBudget spp_budget(double spp) {
   CommonBudget budget;
-  budget.frames = frames;
+  budget.passes = passes;
   budget.spp = spp;
   return budget;
 }
@@ -69,8 +69,8 @@ TEST(EqualiseTaskThreads, FindsThresholdsWithWhichAllLanesTakeTheSameSamples) {
 
 TEST(EqualiseTaskThreads, SaysWhichLaneCannotAndWhy) {
   EqualiseTask task(equalise_work());
-  // A pixel has a sample a frame, whatever the thresholds.
-  const EqualiseRequest request = request_for(spp_budget(0.5 * frames));
+  // A pixel has a sample a pass, whatever the thresholds.
+  const EqualiseRequest request = request_for(spp_budget(0.5 * passes));
   const EqualiseStatus status = equalised(task, request);
   ASSERT_EQ(status.calibrations.size(), 4u);
   EXPECT_FALSE(status.calibrations[2].met);
@@ -81,7 +81,7 @@ TEST(EqualiseTaskThreads, SaysWhichLaneCannotAndWhy) {
 TEST(EqualiseTaskThreads, AnErrorNeedsAReference) {
   EqualiseTask task(equalise_work());
   CommonBudget budget;
-  budget.frames = frames;
+  budget.passes = passes;
   budget.error = ErrorTarget{MetricId::relmse, 0.1};
   EqualiseRequest request = request_for(budget);
   EXPECT_NE(equalised(task, request).error, "");

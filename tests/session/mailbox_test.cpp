@@ -9,10 +9,10 @@ namespace {
 
 using Waiting = Mailbox::Waiting;
 
-/// A request that can be told from others by its frame.
-LabRequest request(std::uint32_t frame, std::uint64_t seed = 0) {
+/// A request that can be told from others by its pass.
+LabRequest request(std::uint32_t pass, std::uint64_t seed = 0) {
   LabRequest made;
-  made.lanes.frame = frame;
+  made.lanes.pass = pass;
   made.store.settings.seed = seed;
   return made;
 }
@@ -26,7 +26,7 @@ TEST(Mailbox, OfSeveralRequestsTheNewestIsTaken) {
   const auto taken = mailbox.take();
   ASSERT_TRUE(taken);
   EXPECT_EQ(taken->number, 3u);
-  EXPECT_EQ(taken->request.lanes.frame, 30u);
+  EXPECT_EQ(taken->request.lanes.pass, 30u);
   EXPECT_EQ(mailbox.take(), nullptr) << "the others are dropped";
 
   EXPECT_EQ(mailbox.submit(request(40)), 4u);
@@ -34,7 +34,7 @@ TEST(Mailbox, OfSeveralRequestsTheNewestIsTaken) {
   const auto waited = mailbox.wait_and_take();
   ASSERT_TRUE(waited);
   EXPECT_EQ(waited->number, 5u);
-  EXPECT_EQ(waited->request.lanes.frame, 50u);
+  EXPECT_EQ(waited->request.lanes.pass, 50u);
 }
 
 TEST(Mailbox, SaysWhatTheWaitingRequestsNeed) {
@@ -77,7 +77,7 @@ TEST(Mailbox, OnlyOtherSamplesOrAnotherWayToKeepThemNeedAnotherStore) {
 
   const auto truth = std::make_shared<const RadianceImage>(1, 1);
   EXPECT_EQ(after([](LabRequest& r) { r.lanes.policies.resize(2); }), Waiting::other_lanes);
-  EXPECT_EQ(after([](LabRequest& r) { r.lanes.frame = 1; }), Waiting::other_lanes);
+  EXPECT_EQ(after([](LabRequest& r) { r.lanes.pass = 1; }), Waiting::other_lanes);
   EXPECT_EQ(after([](LabRequest& r) { r.lanes.variance = true; }), Waiting::other_lanes);
   EXPECT_EQ(after([&](LabRequest& r) { r.lanes.reference = truth; }), Waiting::other_lanes);
   EXPECT_EQ(after([](LabRequest& r) { r.lanes.metric = MetricId::flip; }), Waiting::other_lanes);

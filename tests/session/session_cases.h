@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 inline constexpr int width = 48;
 inline constexpr int height = 27;
-inline constexpr std::uint32_t frames = 8;
+inline constexpr std::uint32_t passes = 8;
 
 inline std::shared_ptr<const TraceScene> cornell_checker() {
   static const auto scene =
@@ -30,7 +30,7 @@ inline LabRequest four_lanes() {
   request.store.settings = default_settings(request.store.scene->scene());
   request.store.settings.width = width;
   request.store.settings.height = height;
-  request.lanes.frame = frames;
+  request.lanes.pass = passes;
   request.store.threads = 2;
   for (const EstimatorId id :
        {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
@@ -44,20 +44,20 @@ inline std::shared_ptr<const RadianceImage> grey_reference(float radiance) {
   return std::make_shared<const RadianceImage>(width, height, glm::vec3(radiance));
 }
 
-/// What answers the request with this number, at this frame; null if nothing does.
+/// What answers the request with this number, at this pass; null if nothing does.
 inline std::shared_ptr<const Snapshot> wait_for(const Session& session, std::uint64_t number,
-                                                std::uint32_t frame) {
+                                                std::uint32_t pass) {
   std::shared_ptr<const Snapshot> snapshot;
   const bool answered = wait_until([&] {
     snapshot = session.latest();
-    return snapshot && snapshot->request >= number && snapshot->frame == frame;
+    return snapshot && snapshot->request >= number && snapshot->pass == pass;
   });
   return answered ? snapshot : nullptr;
 }
 
 inline std::shared_ptr<const Snapshot> answer(Session& session, const LabRequest& request) {
   const std::uint64_t number = session.submit(request);
-  return wait_for(session, number, request.lanes.frame);
+  return wait_for(session, number, request.lanes.pass);
 }
 
 inline Snapshot headless(const LabRequest& request) {
@@ -68,8 +68,8 @@ inline Snapshot headless(const LabRequest& request) {
   options.pilot_source = pilot_source(request.store.scene, request.store.settings);
   Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
           request.store.settings.height, request.lanes.policies, options);
-  while (lab.frame() < request.lanes.frame) {
-    lab.run_frame();
+  while (lab.pass() < request.lanes.pass) {
+    lab.run_pass();
   }
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
@@ -79,7 +79,7 @@ inline Snapshot headless(const LabRequest& request) {
 /// Equal to the bit in all but the seconds.
 inline void expect_same(const Snapshot& a, const Snapshot& b) {
   ASSERT_EQ(a.lanes.size(), b.lanes.size());
-  EXPECT_EQ(a.frame, b.frame);
+  EXPECT_EQ(a.pass, b.pass);
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
   for (std::size_t i = 0; i < a.lanes.size(); ++i) {
@@ -96,7 +96,7 @@ inline void expect_same(const Snapshot& a, const Snapshot& b) {
     EXPECT_EQ(x.plan.not_done, y.plan.not_done);
     ASSERT_EQ(x.history.size(), y.history.size());
     for (std::size_t f = 0; f < x.history.size(); ++f) {
-      EXPECT_EQ(x.history[f].frame, y.history[f].frame);
+      EXPECT_EQ(x.history[f].pass, y.history[f].pass);
       EXPECT_EQ(x.history[f].samples, y.history[f].samples);
       EXPECT_EQ(x.history[f].max_spp, y.history[f].max_spp);
       EXPECT_EQ(x.history[f].not_done, y.history[f].not_done);

@@ -28,7 +28,7 @@ TEST(SessionThreads, EveryStepOfACameraDragShowsAPicture) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_GE(pictures, 3u) << "while it was dragged";
-  const auto settled = wait_for(session, number, request.lanes.frame);
+  const auto settled = wait_for(session, number, request.lanes.pass);
   ASSERT_TRUE(settled);
   expect_same(*settled, headless(request));
 }
@@ -64,7 +64,7 @@ TEST(SessionThreads, AFastDragOfAThresholdShowsPicturesAndEndsRight) {
   drag(session, request, 1000, [&](LabRequest& dragged, int step) {
     dragged.lanes.policies[1].thresholds[0] = threshold * std::pow(0.997f, float(step % 1500));
   });
-  request.lanes.frame = 6;
+  request.lanes.pass = 6;
   expect_as_headless(session, request);
 }
 
@@ -76,7 +76,7 @@ TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
     const auto lane = std::size_t(step) % changed.lanes.policies.size();
     switch (step % 9) {
       case 0:
-        changed.lanes.frame = 1 + std::uint32_t(step) % 11;
+        changed.lanes.pass = 1 + std::uint32_t(step) % 11;
         break;
       case 1:
         changed.lanes.policies[lane].max_spp = 3 + std::uint32_t(step) % 17;

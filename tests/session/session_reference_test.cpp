@@ -1,4 +1,4 @@
-// A session with ground truth: the errors of its lanes, frame by frame, and the lane of uniform
+// A session with ground truth: the errors of its lanes, pass by pass, and the lane of uniform
 // sampling that they are compared with.
 
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
   Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
           request.store.settings.height, policies, options);
   std::vector<std::vector<double>> errors(policies.size());
-  while (lab.frame() < request.lanes.frame) {
-    lab.run_frame();
+  while (lab.pass() < request.lanes.pass) {
+    lab.run_pass();
     for (std::size_t i = 0; i < errors.size(); ++i) {
       errors[i].push_back(metric(request.lanes.metric)
                               .compute(lab.lanes()[i].film().image(), *request.lanes.reference));
@@ -53,7 +53,7 @@ void expect_errors(Session& session, const LabRequest& request) {
   EXPECT_EQ(true_errors(*snapshot->baseline), errors.back());
   EXPECT_EQ(snapshot->baseline->policy, default_policy(EstimatorId::uniform));
   EXPECT_EQ(snapshot->baseline->history.back().samples,
-            std::uint64_t(request.lanes.frame) * snapshot->pixels());
+            std::uint64_t(request.lanes.pass) * snapshot->pixels());
   expect_same(*snapshot, headless(request));
 }
 
@@ -64,7 +64,7 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
   EXPECT_FALSE(session.latest()->baseline);
   EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.back().true_error));
   {
-    SCOPED_TRACE("a reference for frames that have been run");
+    SCOPED_TRACE("a reference for passes that have been run");
     request.lanes.reference = picture_of(0.5f);
     expect_errors(session, request);
   }
@@ -84,10 +84,10 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
     expect_errors(session, request);
   }
   {
-    SCOPED_TRACE("a lower frame and a higher one");
-    request.lanes.frame = 3;
+    SCOPED_TRACE("a lower pass and a higher one");
+    request.lanes.pass = 3;
     expect_errors(session, request);
-    request.lanes.frame = 10;
+    request.lanes.pass = 10;
     expect_errors(session, request);
   }
   {
@@ -128,7 +128,7 @@ TEST(SessionThreads, ErrorsAreRightAfterManyChangesThatWereNotWaitedFor) {
   }
   expect_errors(session, first);
   LabRequest further = first;
-  further.lanes.frame = frames + 2;
+  further.lanes.pass = passes + 2;
   expect_errors(session, further);
 }
 
@@ -146,16 +146,16 @@ TEST(SessionThreads, AReferenceOfAnotherSizeIsRefused) {
 TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
   Session session;
   LabRequest request = four_lanes();
-  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.pass = LaneRequest::no_end;
   request.lanes.reference = picture_of(0.5f);
   for (SamplingPolicy& policy : request.lanes.policies) {
     policy.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);
   EXPECT_TRUE(wait_until(
-      [&] { return session.latest() && session.latest()->frame >= 2 && !session.busy(); }));
+      [&] { return session.latest() && session.latest()->pass >= 2 && !session.busy(); }));
   EXPECT_FALSE(session.busy());
-  EXPECT_GE(session.latest()->frame, 2u);
+  EXPECT_GE(session.latest()->pass, 2u);
 }
 
 }  // namespace

@@ -48,13 +48,13 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
     expect_as_headless(session, request);
   }
   {
-    SCOPED_TRACE("a lower frame");
-    request.lanes.frame = 3;
+    SCOPED_TRACE("a lower pass");
+    request.lanes.pass = 3;
     expect_as_headless(session, request);
   }
   {
-    SCOPED_TRACE("a higher frame");
-    request.lanes.frame = 9;
+    SCOPED_TRACE("a higher pass");
+    request.lanes.pass = 9;
     expect_as_headless(session, request);
   }
   {
@@ -83,8 +83,8 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
     expect_as_headless(session, request);
   }
   {
-    SCOPED_TRACE("frame 0");
-    request.lanes.frame = 0;
+    SCOPED_TRACE("pass 0");
+    request.lanes.pass = 0;
     expect_as_headless(session, request);
   }
 }
@@ -116,7 +116,7 @@ TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
   ASSERT_TRUE(answer(session, request));
   wait_until_idle(session);
   const std::uint64_t stored = stored_samples(session);
-  EXPECT_GT(stored, std::uint64_t(width * height * frames));
+  EXPECT_GT(stored, std::uint64_t(width * height * passes));
 
   request.lanes.policies[0].thresholds = {10.0f, 10.0f, 10.0f};
   ASSERT_TRUE(answer(session, request));
@@ -125,7 +125,7 @@ TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
   EXPECT_GT(session.status().replay_seconds, 0.0);
 
   request.store.settings.camera.origin.x += 0.1f;
-  request.lanes.frame = 1;
+  request.lanes.pass = 1;
   ASSERT_TRUE(answer(session, request));
   wait_until_idle(session);
   EXPECT_EQ(stored_samples(session), std::uint64_t(width * height));
@@ -135,22 +135,22 @@ TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
   std::atomic<int> notified = 0;
   Session session([&] { ++notified; });
   LabRequest request = four_lanes();
-  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.pass = LaneRequest::no_end;
   session.submit(request);
   std::uint64_t last = 0;
-  std::uint32_t frame = 0;
+  std::uint32_t pass = 0;
   const auto end = Clock::now() + patience;
-  while (frame < 5 && Clock::now() < end) {
+  while (pass < 5 && Clock::now() < end) {
     if (const auto snapshot = session.latest()) {
       EXPECT_GE(snapshot->number, last);
-      EXPECT_GE(snapshot->frame, frame);
+      EXPECT_GE(snapshot->pass, pass);
       last = snapshot->number;
-      frame = snapshot->frame;
+      pass = snapshot->pass;
     }
   }
-  EXPECT_GE(frame, 5u);
-  // To stop where it stands, a window asks for the frame that it shows.
-  request.lanes.frame = session.latest()->frame;
+  EXPECT_GE(pass, 5u);
+  // To stop where it stands, a window asks for the pass that it shows.
+  request.lanes.pass = session.latest()->pass;
   expect_as_headless(session, request);
   wait_until_idle(session);
   EXPECT_EQ(session.status().samples_per_second, 0.0);
@@ -163,7 +163,7 @@ TEST(SessionThreads, SnapshotsComeInOrderAndOnceDoneTheSessionSleeps) {
 TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
   Session session;
   LabRequest request = four_lanes();
-  request.lanes.frame = LaneRequest::no_end;
+  request.lanes.pass = LaneRequest::no_end;
   for (SamplingPolicy& policy : request.lanes.policies) {
     policy.allocation.kind = AllocationId::two_level;
   }
@@ -171,7 +171,7 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
   std::shared_ptr<const Snapshot> snapshot;
   EXPECT_TRUE(wait_until([&] {
     snapshot = session.latest();
-    return snapshot && snapshot->frame >= 2;
+    return snapshot && snapshot->pass >= 2;
   }));
   wait_until_idle(session);
   ASSERT_EQ(session.status().activity, SessionStatus::Activity::idle);
@@ -182,7 +182,7 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
   }
   // It can be woken again, and goes on from there.
   request.lanes.policies[0].allocation.kind = AllocationId::vote;
-  request.lanes.frame = 6;
+  request.lanes.pass = 6;
   expect_as_headless(session, request);
 }
 
@@ -221,8 +221,8 @@ TEST(SessionThreads, AnErrorIsReportedAndTheSessionLivesOn) {
   EXPECT_EQ(session.status().error, "");
 }
 
-/// A closed white room in so many pixels that a frame takes seconds.
-LabRequest long_frame() {
+/// A closed white room in so many pixels that a pass takes seconds.
+LabRequest long_pass() {
   Scene room;
   Sphere walls;
   walls.radius = 10.0f;
@@ -237,7 +237,7 @@ LabRequest long_frame() {
   return request;
 }
 
-TEST(SessionThreads, ClosingEndsTheFrameUnderWay) {
+TEST(SessionThreads, ClosingEndsThePassUnderWay) {
   std::atomic<const Session*> asked = nullptr;
   std::atomic<bool> shown = false;
   auto session = std::make_unique<Session>([&] {
@@ -246,12 +246,12 @@ TEST(SessionThreads, ClosingEndsTheFrameUnderWay) {
     }
   });
   asked = session.get();
-  session->submit(long_frame());
+  session->submit(long_pass());
   ASSERT_TRUE(
       wait_until([&] { return session->status().activity == SessionStatus::Activity::tracing; }));
-  ASSERT_FALSE(session->latest()) << "the frame was over before it could be ended";
+  ASSERT_FALSE(session->latest()) << "the pass was over before it could be ended";
   session.reset();
-  EXPECT_FALSE(shown) << "the frame was traced to its end";
+  EXPECT_FALSE(shown) << "the pass was traced to its end";
 }
 
 TEST(SessionThreads, ClosesAtAnyMoment) {

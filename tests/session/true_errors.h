@@ -6,10 +6,10 @@
 
 namespace quartet::test {
 
-/// Of each frame in a lane's history.
+/// Of each pass in a lane's history.
 inline std::vector<double> true_errors(const LaneSnapshot& lane) {
   std::vector<double> errors;
-  for (const FrameRecord& record : lane.history) {
+  for (const PassRecord& record : lane.history) {
     errors.push_back(record.true_error);
   }
   return errors;

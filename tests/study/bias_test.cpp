@@ -14,7 +14,7 @@ namespace quartet {
 namespace {
 
 std::vector<BiasRuns> measure(const char* scene, EstimatorId id, AllocationId kind, float threshold,
-                              std::uint32_t frames, std::uint32_t seeds) {
+                              std::uint32_t passes, std::uint32_t seeds) {
   auto made = std::make_shared<const TraceScene>(open_scene(scene));
   RenderSettings settings = default_settings(made->scene());
   SamplingPolicy policy = default_policy(id);
@@ -23,7 +23,7 @@ std::vector<BiasRuns> measure(const char* scene, EstimatorId id, AllocationId ki
   policy.max_spp = 64;
   double last = 0.0;
   std::vector<BiasRuns> runs =
-      measure_bias(made, settings, std::span(&policy, 1), frames, seeds, {}, [&](double done) {
+      measure_bias(made, settings, std::span(&policy, 1), passes, seeds, {}, [&](double done) {
         EXPECT_GE(done, last);
         last = done;
       });
@@ -72,7 +72,7 @@ struct SeedPictures {
 };
 
 SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderSettings settings,
-                         SamplingPolicy policy, std::uint32_t frames, std::uint64_t seed) {
+                         SamplingPolicy policy, std::uint32_t passes, std::uint64_t seed) {
   settings.seed = seed;
   const SampleSource source = sample_source(scene, settings);
   SeedPictures pictures;
@@ -81,8 +81,8 @@ SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderS
     LabOptions options;
     options.pilot_source = pilot_source(scene, settings);
     Lab lab(source, settings.width, settings.height, std::span(&policy, 1), options);
-    for (std::uint32_t frame = 0; frame < frames; ++frame) {
-      lab.run_frame();
+    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+      lab.run_pass();
     }
     pictures.shown[mode] = lab.lanes()[0].film().image();
     pictures.mean_spp[mode] =
@@ -90,8 +90,8 @@ SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderS
   }
   const SamplingPolicy even = default_policy(EstimatorId::uniform);
   Lab uniform(source, settings.width, settings.height, std::span(&even, 1));
-  while (uniform.frame() < std::uint32_t(std::lround(pictures.mean_spp[0]))) {
-    uniform.run_frame();
+  while (uniform.pass() < std::uint32_t(std::lround(pictures.mean_spp[0]))) {
+    uniform.run_pass();
   }
   pictures.uniform = uniform.lanes()[0].film().image();
   return pictures;
@@ -112,14 +112,14 @@ TEST(Bias, EveryNumberIsThatOfTheSeedsRunsAlone) {
   settings.height = 9;
   settings.seed = 40;
   SamplingPolicy policy = default_policy(EstimatorId::kl);
-  constexpr std::uint32_t frames = 4;
+  constexpr std::uint32_t passes = 4;
   constexpr std::uint32_t seeds = 3;
   const std::vector<BiasRuns> runs =
-      measure_bias(scene, settings, std::span(&policy, 1), frames, seeds, {}, [](double) {});
+      measure_bias(scene, settings, std::span(&policy, 1), passes, seeds, {}, [](double) {});
   ASSERT_EQ(runs.size(), 2u);
   std::vector<SeedPictures> alone;
   for (std::uint64_t seed = 40; seed < 40 + seeds; ++seed) {
-    alone.push_back(pictures_of(scene, settings, policy, frames, seed));
+    alone.push_back(pictures_of(scene, settings, policy, passes, seed));
   }
   EXPECT_NE(alone[0].uniform, alone[1].uniform);
   EXPECT_NE(alone[1].uniform, alone[2].uniform);

@@ -35,10 +35,10 @@ std::vector<SamplingPolicy> policies_with_thresholds() {
 }
 
 /// What a policy gives, by a run of its own.
-Measurement run_of(const SamplingPolicy& policy, std::uint32_t frames) {
+Measurement run_of(const SamplingPolicy& policy, std::uint32_t passes) {
   Experiment experiment = make_experiment();
   return experiment
-      .run({.policy = policy, .stop = {.frames = frames}, .metrics = {MetricId::relmse}})
+      .run({.policy = policy, .stop = {.passes = passes}, .metrics = {MetricId::relmse}})
       ->back();
 }
 
@@ -46,11 +46,11 @@ TEST(Calibrate, EveryEstimatorMeetsTheSameMeanOfSamples) {
   Experiment experiment = make_experiment();
   for (const SamplingPolicy& policy : policies_with_thresholds()) {
     SCOPED_TRACE(estimator(policy.estimator).id);
-    const auto found = calibrate(experiment, policy, {.frames = 12, .spp = 24.0});
+    const auto found = calibrate(experiment, policy, {.passes = 12, .spp = 24.0});
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->met) << found->reason;
     EXPECT_NEAR(found->result.mean_spp, 24.0, 0.24);
-    EXPECT_EQ(found->result.record.frame, 12u);
+    EXPECT_EQ(found->result.record.pass, 12u);
     // The thresholds alone reproduce it.
     EXPECT_EQ(run_of(found->policy, 12).record.samples, found->result.record.samples);
     // All are scaled alike.
@@ -66,7 +66,7 @@ TEST(Calibrate, IsTheSameTwiceAndWithAnyThreads) {
   for (const int threads : {1, 2, 2}) {
     Experiment experiment = make_experiment(threads);
     found.push_back(
-        *calibrate(experiment, default_policy(EstimatorId::kl), {.frames = 10, .spp = 20.0}));
+        *calibrate(experiment, default_policy(EstimatorId::kl), {.passes = 10, .spp = 20.0}));
   }
   EXPECT_EQ(found[0].policy, found[1].policy);
   EXPECT_EQ(found[0].policy, found[2].policy);
@@ -79,7 +79,7 @@ TEST(Calibrate, MeetsAnError) {
   const double middle = std::sqrt(run_of(scaled_thresholds(policy, 1e6), 12).values[0] *
                                   run_of(scaled_thresholds(policy, 1e-6), 12).values[0]);
   const auto found =
-      calibrate(experiment, policy, {.frames = 12, .error = ErrorTarget{MetricId::relmse, middle}});
+      calibrate(experiment, policy, {.passes = 12, .error = ErrorTarget{MetricId::relmse, middle}});
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->met) << found->reason;
   EXPECT_NEAR(found->result.values[0], middle, 0.011 * middle);
@@ -89,10 +89,10 @@ TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
   Experiment experiment = make_experiment();
   const SamplingPolicy policy = default_policy(EstimatorId::kl);
   const auto free =
-      experiment.run({.policy = policy, .stop = {.frames = 12}, .metrics = {MetricId::psnr}});
+      experiment.run({.policy = policy, .stop = {.passes = 12}, .metrics = {MetricId::psnr}});
   const double psnr = free->back().values[0];
   const auto found = calibrate(experiment, scaled_thresholds(policy, 1.5),
-                               {.frames = 12, .error = ErrorTarget{MetricId::psnr, psnr}});
+                               {.passes = 12, .error = ErrorTarget{MetricId::psnr, psnr}});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->result.values[0], psnr, 0.05);
 }
@@ -100,33 +100,33 @@ TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
 TEST(Calibrate, SaysWhyABudgetCannotBeMet) {
   Experiment experiment = make_experiment();
   const SamplingPolicy policy = default_policy(EstimatorId::hellinger);
-  auto found = calibrate(experiment, policy, {.frames = 15, .spp = 4.0});
+  auto found = calibrate(experiment, policy, {.passes = 15, .spp = 4.0});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
-  EXPECT_EQ(found->reason, "15 frames of vote take at least 15 spp");
+  EXPECT_EQ(found->reason, "15 passes of vote take at least 15 spp");
   EXPECT_EQ(found->result.mean_spp, 15.0);
-  found = calibrate(experiment, policy, {.frames = 3, .spp = 50.0});
+  found = calibrate(experiment, policy, {.passes = 3, .spp = 50.0});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
-  EXPECT_EQ(found->reason.substr(0, 30), "3 frames of vote take at most ");
+  EXPECT_EQ(found->reason.substr(0, 30), "3 passes of vote take at most ");
   EXPECT_GT(found->result.mean_spp, 9.0);
   found =
-      calibrate(experiment, policy, {.frames = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
+      calibrate(experiment, policy, {.passes = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
   EXPECT_NE(found->reason.find("lowest threshold give relmse"), std::string::npos) << found->reason;
 }
 
-TEST(Calibrate, UniformTakesAsManyFramesAsTheBudgetHas) {
+TEST(Calibrate, UniformTakesAsManyPassesAsTheBudgetHas) {
   Experiment experiment = make_experiment();
   const SamplingPolicy uniform = default_policy(EstimatorId::uniform);
-  auto found = calibrate(experiment, uniform, {.frames = 15, .spp = 24.0});
+  auto found = calibrate(experiment, uniform, {.passes = 15, .spp = 24.0});
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->met);
-  EXPECT_EQ(found->result.record.frame, 24u);
-  found = calibrate(experiment, uniform, {.frames = 15, .spp = 2.5});
+  EXPECT_EQ(found->result.record.pass, 24u);
+  found = calibrate(experiment, uniform, {.passes = 15, .spp = 2.5});
   EXPECT_FALSE(found->met);
-  EXPECT_NE(found->reason.find("whole frames"), std::string::npos);
+  EXPECT_NE(found->reason.find("whole passes"), std::string::npos);
 }
 
 TEST(CommonBudget, IsWhatItSaysOfARun) {
@@ -146,15 +146,15 @@ TEST(CommonBudget, IsWhatItSaysOfARun) {
   EXPECT_EQ(error.text(), "flip 0.25");
 }
 
-TEST(Calibrate, UniformAtABudgetIsTheNearestOfItsFrames) {
+TEST(Calibrate, UniformAtABudgetIsTheNearestOfItsPasses) {
   Experiment experiment = make_experiment();
-  // Two frames are 20 % under 2.5 samples a pixel, three are 20 % above: as a ratio 3 is nearer.
+  // Two passes are 20 % under 2.5 samples a pixel, three are 20 % above: as a ratio 3 is nearer.
   const auto found = calibrate(experiment, default_policy(EstimatorId::uniform), {.spp = 2.5});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->result.mean_spp, 3.0);
   EXPECT_EQ(found->factor, 1.0);
   EXPECT_EQ(found->runs, 1);
-  EXPECT_EQ(found->reason, "whole frames come no nearer than 3 spp");
+  EXPECT_EQ(found->reason, "whole passes come no nearer than 3 spp");
 }
 
 TEST(Calibrate, CanBeStopped) {

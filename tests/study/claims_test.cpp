@@ -174,10 +174,10 @@ TEST(Claims, ComparesWhatEachConditionSays) {
        {"kl: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8},
        {"chi2: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8},
        {"hellinger: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8}},
-      {{"contrast: samples next frame, a neighbour minus a pixel 4 away > 0", 3, 9},
-       {"kl: samples next frame, a neighbour minus a pixel 4 away > 0", 6, 18},
-       {"chi2: samples next frame, a neighbour minus a pixel 4 away > 0", 9, 27},
-       {"hellinger: samples next frame, a neighbour minus a pixel 4 away > 0", 12, 36}}};
+      {{"contrast: samples next pass, a neighbour minus a pixel 4 away > 0", 3, 9},
+       {"kl: samples next pass, a neighbour minus a pixel 4 away > 0", 6, 18},
+       {"chi2: samples next pass, a neighbour minus a pixel 4 away > 0", 9, 27},
+       {"hellinger: samples next pass, a neighbour minus a pixel 4 away > 0", 12, 36}}};
   const std::vector<Claim> claims = judge_claims(test::numbered_claim_data());
   ASSERT_EQ(claims.size(), findings.size());
   for (std::size_t i = 0; i < claims.size(); ++i) {
@@ -243,7 +243,7 @@ TEST(Claims, AreMeasuredOnTheReportsScene) {
         samples += data->pixels[r] > 0 ? run.spp[r] * double(data->pixels[r]) : 0.0;
       }
       EXPECT_NEAR(samples / (96.0 * 54.0), run.mean_spp, 1e-9);
-      // Black: one sample a frame, and some more beside the outlines, which vote for neighbours.
+      // Black: one sample a pass, and some more beside the outlines, which vote for neighbours.
       EXPECT_GE(run.spp[index_of(RegionId::margin)], 6.0);
       EXPECT_LT(run.spp[index_of(RegionId::margin)], 7.5);
       EXPECT_GT(run.lit_spp, run.mean_spp);
@@ -257,8 +257,8 @@ TEST(Claims, AreMeasuredOnTheReportsScene) {
     SCOPED_TRACE(estimator(report_criteria[c]).id);
     const SamplingPolicy policy = default_policy(report_criteria[c]);
     Lab alone(world.source(world.first_seed), 96, 54, std::span(&policy, 1));
-    while (alone.frame() < 6) {
-      alone.run_frame();
+    while (alone.pass() < 6) {
+      alone.run_pass();
     }
     const Lane& lane = alone.lanes()[0];
     const ClaimRun& run = data->seeds[0].runs[c];

@@ -23,9 +23,9 @@ Experiment make_run() {
       std::make_shared<const RadianceImage>(test::noisy_truth(run_width, run_height)));
 }
 
-RunPlan plan_of(EstimatorId id, std::uint32_t frames) {
+RunPlan plan_of(EstimatorId id, std::uint32_t passes) {
   return {.policy = default_policy(id),
-          .stop = {.frames = frames},
+          .stop = {.passes = passes},
           .metrics = {MetricId::mse, MetricId::relmse}};
 }
 
@@ -38,14 +38,14 @@ TEST(Experiment, ARunIsWhatALabAloneGives) {
     ASSERT_TRUE(run);
     ASSERT_EQ(run->size(), 1u);
     Lab alone(test::noisy_source(run_width), run_width, run_height, std::span(&plan.policy, 1));
-    while (alone.frame() < 6) {
-      alone.run_frame();
+    while (alone.pass() < 6) {
+      alone.run_pass();
     }
     const Lane& lane = alone.lanes()[0];
     EXPECT_TRUE(std::ranges::equal(lane.taken(), experiment.lane().taken()));
     EXPECT_EQ(lane.film().image(), experiment.lane().film().image());
     const Measurement& end = run->back();
-    EXPECT_EQ(end.record.frame, 6u);
+    EXPECT_EQ(end.record.pass, 6u);
     EXPECT_EQ(end.record.samples, lane.history().back().samples);
     EXPECT_DOUBLE_EQ(end.mean_spp, double(end.record.samples) / double(run_pixels));
     ASSERT_EQ(end.values.size(), 2u);
@@ -69,43 +69,43 @@ TEST(Experiment, TracesASampleOnceForAllRuns) {
 
 TEST(Experiment, IsMeasuredWhereAskedAndAlwaysAtItsEnd) {
   Experiment experiment = make_run();
-  const auto frames_of = [&](MeasureAt at) {
+  const auto passes_of = [&](MeasureAt at) {
     RunPlan plan = plan_of(EstimatorId::uniform, 11);
     plan.measure_at = at;
-    std::vector<std::uint32_t> frames;
+    std::vector<std::uint32_t> passes;
     const auto run = experiment.run(plan);
     for (const Measurement& each : *run) {
-      frames.push_back(each.record.frame);
+      passes.push_back(each.record.pass);
     }
-    return frames;
+    return passes;
   };
-  EXPECT_EQ(frames_of(MeasureAt::end), (std::vector<std::uint32_t>{11}));
-  EXPECT_EQ(frames_of(MeasureAt::powers_of_two), (std::vector<std::uint32_t>{1, 2, 4, 8, 11}));
-  EXPECT_EQ(frames_of(MeasureAt::every_frame).size(), 11u);
+  EXPECT_EQ(passes_of(MeasureAt::end), (std::vector<std::uint32_t>{11}));
+  EXPECT_EQ(passes_of(MeasureAt::powers_of_two), (std::vector<std::uint32_t>{1, 2, 4, 8, 11}));
+  EXPECT_EQ(passes_of(MeasureAt::every_pass).size(), 11u);
 }
 
 TEST(Experiment, EndsAtItsConditionsOrWhenStopped) {
   Experiment experiment = make_run();
   RunPlan plan = plan_of(EstimatorId::uniform, 100);
   plan.stop.spp = 7.0;
-  EXPECT_EQ(experiment.run(plan)->back().record.frame, 7u);
+  EXPECT_EQ(experiment.run(plan)->back().record.pass, 7u);
   plan.stop = {.error = ErrorTarget{MetricId::mse, 0.01}};
-  plan.measure_at = MeasureAt::every_frame;
+  plan.measure_at = MeasureAt::every_pass;
   const auto run = *experiment.run(plan);
   ASSERT_GE(run.size(), 2u);
   EXPECT_LE(run.back().values[0], 0.01);
   EXPECT_GT(run[run.size() - 2].values[0], 0.01);
 
   std::stop_source stop;
-  int frames = 0;
+  int passes = 0;
   EXPECT_FALSE(
       experiment.run(plan_of(EstimatorId::uniform, 50), stop.get_token(), [&](double done) {
-        EXPECT_NEAR(done, double(++frames) / 50.0, 1e-12);
-        if (frames == 3) {
+        EXPECT_NEAR(done, double(++passes) / 50.0, 1e-12);
+        if (passes == 3) {
           stop.request_stop();
         }
       }));
-  EXPECT_EQ(frames, 3);
+  EXPECT_EQ(passes, 3);
   EXPECT_TRUE(experiment.run(plan_of(EstimatorId::uniform, 5))) << "goes on afterwards";
 }
 
@@ -115,7 +115,7 @@ TEST(Experiment, RefusesWhatCannotBeMeasuredOrNeverEnds) {
             std::string::npos);
   RunPlan plan{.policy = default_policy(EstimatorId::kl), .stop = {}};
   EXPECT_NE(error_of([&] { blind.run(plan); }).find("condition"), std::string::npos);
-  plan.stop.frames = 3;
+  plan.stop.passes = 3;
   EXPECT_TRUE(blind.run(plan)->back().values.empty());
 }
 

@@ -112,8 +112,8 @@ Audit made_audit() {
 Outcome run_to_end(Lab& lab, const Truth& truth) {
   Observation observation(truth, made_region, made_target);
   while (lab.lanes()[0].plan().total > 0) {
-    observation.before_frame(lab.lanes()[0]);
-    lab.run_frame();
+    observation.before_pass(lab.lanes()[0]);
+    lab.run_pass();
   }
   const std::vector<std::uint32_t> even(made_pixels, 6);
   return observation.outcome(lab.lanes()[0], even, made_audit());
@@ -124,7 +124,7 @@ TEST(Outcome, OfALaneByHand) {
   Lab lab = made_lab(made_policy());
   const Outcome outcome = run_to_end(lab, truth);
   const Lane& lane = lab.lanes()[0];
-  ASSERT_EQ(lane.frame(), 3u);
+  ASSERT_EQ(lane.pass(), 3u);
   const std::vector<std::uint32_t> taken(lane.taken().begin(), lane.taken().end());
   ASSERT_EQ(taken, (std::vector<std::uint32_t>{4, 4, 4, 8, 8, 8, 4, 4, 8, 8, 4, 8}));
 
@@ -148,7 +148,7 @@ TEST(Outcome, OfALaneByHand) {
   EXPECT_DOUBLE_EQ(outcome.never_done_cost, 16.0 / 72.0);
   EXPECT_EQ(outcome.audit.done, 4.0);
   EXPECT_EQ(outcome.audit.wrong, 1.0);
-  // Two frames after the first gave two samples each to six pixels, two of which are not
+  // Two passes after the first gave two samples each to six pixels, two of which are not
   // wrong.
   EXPECT_DOUBLE_EQ(outcome.wasted, 1.0 / 3.0);
   // Six pixels have 2 of 72 samples too few, six as many too many.
@@ -168,23 +168,23 @@ TEST(Outcome, OfALaneWithAPilotCountsItsSamplesToo) {
 
 TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
   Lab lab = made_lab(made_policy());
-  for (int frame = 1; frame <= 3; ++frame) {
-    lab.run_frame();
+  for (int pass = 1; pass <= 3; ++pass) {
+    lab.run_pass();
     const std::vector<PixelState> states = pixel_states(lab.lanes()[0]);
     for (std::size_t i = 0; i < made_pixels; ++i) {
       EXPECT_EQ(states[i], made[i].done ? PixelState::done
-                           : frame < 3  ? PixelState::refining
+                           : pass < 3   ? PixelState::refining
                                         : PixelState::at_maximum)
-          << "pixel " << i << ", frame " << frame;
+          << "pixel " << i << ", pass " << pass;
     }
   }
   // Without an error nothing is ever done.
   SamplingPolicy uniform = default_policy(EstimatorId::uniform);
   uniform.max_spp = 2;
   Lab plain = made_lab(uniform);
-  plain.run_frame();
+  plain.run_pass();
   EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::refining);
-  plain.run_frame();
+  plain.run_pass();
   EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::at_maximum);
 }
 

@@ -41,7 +41,7 @@ SweepPlan small_plan() {
   plan.policies = {default_policy(EstimatorId::kl), default_policy(EstimatorId::contrast)};
   plan.thresholds = 3;
   plan.seeds = 3;
-  plan.stop = {.frames = 6, .spp = 20.0};
+  plan.stop = {.passes = 6, .spp = 20.0};
   plan.metrics = {MetricId::relmse, MetricId::mse};
   return plan;
 }
@@ -101,8 +101,8 @@ TEST(Sweep, ARunIsThatOfALabAlone) {
 
 TEST(Sweep, TheBaselineGoesOnToTheCostOfTheDearest) {
   for (const std::vector<Measurement>& run : small_result().uniform) {
-    EXPECT_EQ(run.back().mean_spp, 20.0) << "the frames of the others do not end it";
-    EXPECT_EQ(run.front().record.frame, 1u);
+    EXPECT_EQ(run.back().mean_spp, 20.0) << "the passes of the others do not end it";
+    EXPECT_EQ(run.front().record.pass, 1u);
   }
 }
 

@@ -50,7 +50,7 @@ TEST(Dock, AReferenceIsComputedAndOpensItWhereThereIsRoom) {
     EXPECT_TRUE(tall.has("table.row4")) << "four lanes and uniform sampling";
     for (const LaneSnapshot& lane : tall.snapshot().lanes) {
       ASSERT_EQ(lane.history.size(), 5u);
-      for (const FrameRecord& record : lane.history) {
+      for (const PassRecord& record : lane.history) {
         EXPECT_GT(record.true_error, 0.0);
       }
     }

@@ -27,7 +27,7 @@ double multiplier(LabHand& hand) {
 double exposure(LabHand& hand) {
   return double(hand.state().view.exposure);
 }
-double frame(LabHand& hand) {
+double pass(LabHand& hand) {
   return hand.state().playback.wanted();
 }
 double seed(LabHand& hand) {
@@ -51,13 +51,13 @@ constexpr DraggedWidget dragged_widgets[] = {
     {"exposure", 15, exposure, 1},
     {"exposure.number", 15, exposure, 1},
     {"seed", 60, seed, 1},
-    {"frame", -20, frame, -1},
+    {"pass", -20, pass, -1},
     {"lane1.threshold0", -20, threshold<1>, -1},
     {"lane1.threshold0.number", -30, threshold<1>, -1},
     {"lane3.errors.marker0", -15, threshold<3>, -1},
     {"lane2.multiplier", -30, multiplier, -1},
     {"exposure", -15, exposure, -1},
-    {"frame", 20, frame, 1},
+    {"pass", 20, pass, 1},
 };
 
 TEST(Drag, NumbersFollowTheMouse) {

@@ -26,7 +26,7 @@ DisplayImage gradient(int width, int height, int seed) {
 
 Figure four_panels(int width, int height) {
   Figure figure;
-  figure.title = "cornell-checker · 15 frames";
+  figure.title = "cornell-checker · 15 passes";
   const char* titles[] = {"Mitchell contrast", "Kullback–Leibler (√KL)", "√χ²",
                           "Hellinger ≤ σ → ×"};
   for (int i = 0; i < 4; ++i) {
@@ -35,7 +35,7 @@ Figure four_panels(int width, int height) {
                              {"threshold 0.005 · mean 31.0 spp · max 71 spp · 4.7 s"},
                              {}});
   }
-  figure.footer = "quartet figure scenes/cornell-checker.xml --frames 15 --out out";
+  figure.footer = "quartet figure scenes/cornell-checker.xml --passes 15 --out out";
   return figure;
 }
 

@@ -67,7 +67,7 @@ TEST(LabWindowExport, SaysWhereAndHowToRepeatIt) {
   }
   const std::string command = bytes_of(folder / "out" / "command.txt");
   EXPECT_NE(command.find("--size 96x54"), std::string::npos) << command;
-  EXPECT_NE(command.find("--frames 5"), std::string::npos) << command;
+  EXPECT_NE(command.find("--passes 5"), std::string::npos) << command;
 }
 
 TEST(LabWindowExport, PicturesAreAsTheyAreShownAndTheCommandRepeatsThem) {
@@ -102,12 +102,12 @@ TEST(ReproducingCommand, SaysAllThatIsNotAsItComes) {
   snapshot.settings.width = 96;
   snapshot.settings.height = 54;
   snapshot.settings.seed = 7;
-  snapshot.frame = 13;
+  snapshot.pass = 13;
   snapshot.lanes.resize(2);
   snapshot.lanes[0].policy = default_policy(EstimatorId::kl);
   snapshot.lanes[1].policy = default_policy(EstimatorId::uniform);
   const std::string plain =
-      "quartet figure cornell-checker --frames 13 --size 96x54 --seed 7 --integrator mis";
+      "quartet figure cornell-checker --passes 13 --size 96x54 --seed 7 --integrator mis";
   const std::string lanes = " --lane " + lane_text(snapshot.lanes[0].policy) + " --lane " +
                             lane_text(snapshot.lanes[1].policy);
   EXPECT_EQ(reproducing_command(snapshot, {}, "cornell-checker", "out", {}),

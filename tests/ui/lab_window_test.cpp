@@ -198,30 +198,30 @@ TEST(LabWindow, TheModeComboMakesALaneUnbiased) {
   EXPECT_EQ(hand.snapshot().lanes[1].mean, before.lanes[1].mean);
 }
 
-TEST(LabWindow, FramesAreScrubbedSteppedAndPlayed) {
+TEST(LabWindow, PassesAreScrubbedSteppedAndPlayed) {
   LabHand hand;
-  ASSERT_EQ(hand.snapshot().frame, 5u);
+  ASSERT_EQ(hand.snapshot().pass, 5u);
   const std::vector<std::uint32_t> last = hand.snapshot().lanes[1].taken;
-  const ScreenRect slider = hand.rect("frame");
+  const ScreenRect slider = hand.rect("pass");
   hand.drag(slider.right() - 7.0f, slider.center_y(), slider.x + 3.0f, slider.center_y());
   hand.settle();
-  EXPECT_EQ(hand.snapshot().frame, 1u);
+  EXPECT_EQ(hand.snapshot().pass, 1u);
   hand.click("forward");
   hand.settle();
-  EXPECT_EQ(hand.snapshot().frame, 2u);
+  EXPECT_EQ(hand.snapshot().pass, 2u);
   hand.key('.');
   hand.settle();
-  EXPECT_EQ(hand.snapshot().frame, 3u);
+  EXPECT_EQ(hand.snapshot().pass, 3u);
   hand.key(',');
   hand.settle();
-  EXPECT_EQ(hand.snapshot().frame, 2u);
+  EXPECT_EQ(hand.snapshot().pass, 2u);
   EXPECT_FALSE(hand.state().playback.playing());
   hand.key(' ');
-  for (int i = 0; i < 2000 && hand.snapshot().frame < 5; ++i) {
+  for (int i = 0; i < 2000 && hand.snapshot().pass < 5; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     hand.frame();
   }
-  EXPECT_EQ(hand.snapshot().frame, 5u);
+  EXPECT_EQ(hand.snapshot().pass, 5u);
   EXPECT_EQ(hand.snapshot().lanes[1].taken, last) << "a replay ends where the first run did";
 }
 
@@ -243,7 +243,7 @@ TEST(LabWindow, ABrokenSceneIsNamedAndTheOldOneStays) {
   EXPECT_NE(hand.window().message().text.find("broken.xml:"), std::string::npos)
       << hand.window().message().text;
   EXPECT_EQ(hand.state().request.store.scene, scene);
-  EXPECT_EQ(hand.snapshot().frame, 5u);
+  EXPECT_EQ(hand.snapshot().pass, 5u);
   hand.click("message");
   EXPECT_EQ(hand.window().message().kind, Message::Kind::none);
 }
@@ -287,7 +287,7 @@ TEST(LabWindow, ASizeThatDoesNotFitTheMemoryGivesWayToTheOneBefore) {
   EXPECT_EQ(hand.window().message().kind, Message::Kind::error);
   EXPECT_NE(hand.window().message().text.find("1048576x65536"), std::string::npos)
       << hand.window().message().text;
-  EXPECT_EQ(hand.snapshot().frame, 5u);
+  EXPECT_EQ(hand.snapshot().pass, 5u);
 }
 
 TEST(LabWindow, WhatIsNoFileIsNamedWhenItIsDropped) {

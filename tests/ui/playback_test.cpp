@@ -5,7 +5,7 @@
 namespace quartet {
 namespace {
 
-TEST(Playback, NewFramesComeAsFastAsTheyCan) {
+TEST(Playback, NewPassesComeAsFastAsTheyCan) {
   Playback playback;
   EXPECT_TRUE(playback.playing());
   EXPECT_FALSE(playback.update(0, 0.0));
@@ -14,12 +14,12 @@ TEST(Playback, NewFramesComeAsFastAsTheyCan) {
   EXPECT_EQ(playback.wanted(), Playback::no_end);
 }
 
-TEST(Playback, SeenFramesArePlayedAtAPace) {
+TEST(Playback, SeenPassesArePlayedAtAPace) {
   Playback playback;
   playback.update(15, 0.0);
   playback.restart();
   EXPECT_EQ(playback.wanted(), 1u);
-  EXPECT_TRUE(playback.update(15, 0.0)) << "frame 1 is not on screen yet";
+  EXPECT_TRUE(playback.update(15, 0.0)) << "pass 1 is not on screen yet";
   EXPECT_EQ(playback.wanted(), 1u);
   EXPECT_TRUE(playback.update(1, 1.0));
   EXPECT_EQ(playback.wanted(), 2u);

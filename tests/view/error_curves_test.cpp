@@ -16,21 +16,21 @@ constexpr std::array lanes{EstimatorId::contrast, EstimatorId::kl};
 constexpr int width = 10;
 constexpr int height = 10;
 
-/// `frames` frames of so many samples a pixel and seconds each, whose error is gain / samples.
-void fill(LaneSnapshot& lane, int frames, double spp, double seconds, double gain) {
+/// `passes` passes of so many samples a pixel and seconds each, whose error is gain / samples.
+void fill(LaneSnapshot& lane, int passes, double spp, double seconds, double gain) {
   lane.history.clear();
-  for (int frame = 1; frame <= frames; ++frame) {
-    FrameRecord record;
-    record.frame = std::uint32_t(frame);
-    record.samples = std::uint64_t(spp * frame * width * height);
+  for (int pass = 1; pass <= passes; ++pass) {
+    PassRecord record;
+    record.pass = std::uint32_t(pass);
+    record.samples = std::uint64_t(spp * pass * width * height);
     record.rays = 7 * record.samples;
-    record.seconds = seconds * frame;
-    record.true_error = gain / (spp * frame);
+    record.seconds = seconds * pass;
+    record.true_error = gain / (spp * pass);
     lane.history.push_back(record);
   }
 }
 
-/// Uniform sampling takes 1 sample and 1 second a frame; lane 1 twice that and gains nothing; lane
+/// Uniform sampling takes 1 sample and 1 second a pass; lane 1 twice that and gains nothing; lane
 /// 2 has half the error of uniform sampling after the same seconds.
 Snapshot example() {
   Snapshot snapshot = blank_snapshot(width, height, lanes);
@@ -61,7 +61,7 @@ const Line& line_of(const Chart& chart, int id, bool dashed = false) {
   return none;
 }
 
-TEST(ErrorCurves, HasALineALaneWithAPointAFrame) {
+TEST(ErrorCurves, HasALineALaneWithAPointAPass) {
   const Chart chart = error_curve_chart(example(), against(Effort::seconds));
   for (int lane = 0; lane < 2; ++lane) {
     const Line& line = line_of(chart, lane);
@@ -140,7 +140,7 @@ TEST(ErrorCurves, BetweenMeasuredPointsTheBaselineIsStraightInLogarithms) {
   for (const double seconds : {1.0, 1.5, 3.7, 8.0, 100.0}) {
     EXPECT_NEAR(*baseline_error(snapshot, Effort::seconds, seconds), 1.0 / seconds, 1e-9);
   }
-  EXPECT_FALSE(baseline_error(snapshot, Effort::seconds, 0.5)) << "before its first frame";
+  EXPECT_FALSE(baseline_error(snapshot, Effort::seconds, 0.5)) << "before its first pass";
   Snapshot other = snapshot;
   other.metric = MetricId::psnr;
   EXPECT_FALSE(times_uniform(other, 1)) << "a ratio of decibels means nothing";

@@ -153,13 +153,13 @@ TEST(ErrorChart, UniformSaysThatThereIsNoError) {
 
 TEST(ProgressChart, CumulatesAndStaysSmall) {
   Snapshot snapshot = charted_example();
-  snapshot.frame = 10000;
+  snapshot.pass = 10000;
   for (LaneSnapshot& lane : snapshot.lanes) {
     lane.history.clear();
-    for (std::uint32_t frame = 1; frame <= snapshot.frame; ++frame) {
-      FrameRecord record;
-      record.frame = frame;
-      record.samples = std::uint64_t(frame) * 2000;
+    for (std::uint32_t pass = 1; pass <= snapshot.pass; ++pass) {
+      PassRecord record;
+      record.pass = pass;
+      record.samples = std::uint64_t(pass) * 2000;
       lane.history.push_back(record);
     }
   }
@@ -170,7 +170,7 @@ TEST(ProgressChart, CumulatesAndStaysSmall) {
   EXPECT_EQ(points.front(), glm::dvec2(0.0, 0.0));
   EXPECT_EQ(points.back(), glm::dvec2(10000.0, 20000.0));
   EXPECT_EQ(chart.lines[0].color, accent);
-  EXPECT_EQ(reading_at(chart, 5000.0), "frame 5000, samples per pixel: 1e4");
+  EXPECT_EQ(reading_at(chart, 5000.0), "pass 5000, samples per pixel: 1e4");
 }
 
 }  // namespace

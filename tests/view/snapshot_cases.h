@@ -4,12 +4,12 @@
 
 namespace quartet::test {
 
-/// A snapshot of one frame whose lanes have no samples yet, to be filled in.
+/// A snapshot of one pass whose lanes have no samples yet, to be filled in.
 inline Snapshot blank_snapshot(int width, int height, std::span<const EstimatorId> estimators) {
   Snapshot snapshot;
   snapshot.width = width;
   snapshot.height = height;
-  snapshot.frame = 1;
+  snapshot.pass = 1;
   for (const EstimatorId id : estimators) {
     LaneSnapshot lane;
     lane.policy = default_policy(id);
@@ -19,8 +19,8 @@ inline Snapshot blank_snapshot(int width, int height, std::span<const EstimatorI
     lane.taken.assign(snapshot.pixels(), 1);
     lane.error.assign(std::size_t(estimator(id).channels) * snapshot.pixels(), 0.0f);
     lane.plan.wanted.assign(snapshot.pixels(), 1);
-    FrameRecord record;
-    record.frame = 1;
+    PassRecord record;
+    record.pass = 1;
     record.samples = snapshot.pixels();
     record.max_spp = 1;
     lane.history.push_back(record);

@@ -37,7 +37,7 @@ TEST(LaneExr, NothingIsInfiniteWhereAFloatHoldsTooLittle) {
   options.statistics.variance = true;
   const SamplingPolicy policy = default_policy(EstimatorId::variance);
   Lab lab(source, 3, 2, std::span(&policy, 1), options);
-  ASSERT_TRUE(lab.run_frame());
+  ASSERT_TRUE(lab.run_pass());
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
   snapshot.reference = std::make_shared<const RadianceImage>(3, 2, glm::vec3(0.0f));
@@ -145,7 +145,7 @@ TEST(Views, StopStatesAreThoseOfAStudy) {
   policy.max_spp = 16;
   Lab lab(sample_source(scene, settings), side, side, std::span(&policy, 1));
   while (lab.lanes()[0].plan().total > 0) {
-    lab.run_frame();
+    lab.run_pass();
   }
   const Lane& lane = lab.lanes()[0];
   ASSERT_EQ(std::ranges::count(lane.taken(), 16u), 580);

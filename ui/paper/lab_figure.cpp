@@ -22,7 +22,7 @@ FigurePanel panel(const LaneSnapshot& lane, DisplayImage image) {
   panel.title = estimator(lane.policy.estimator).label;
   std::string numbers = threshold_text(lane.policy);
   if (!lane.history.empty()) {
-    const FrameRecord& last = lane.history.back();
+    const PassRecord& last = lane.history.back();
     numbers += fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
                            mean_spp(last, lane.taken.size()), last.max_spp, last.seconds);
   }

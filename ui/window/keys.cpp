@@ -64,10 +64,10 @@ void close(LabState& state) {
 constexpr std::array table{
     KeyRow{' ', false, "Space", "pause, go on; from the end: play again",
            [](LabState& s) { s.playback.toggle(); }, nullptr},
-    KeyRow{',', false, "Comma, dot", "one frame back, one forward",
+    KeyRow{',', false, "Comma, dot", "one pass back, one forward",
            [](LabState& s) { s.playback.step(-1); }, nullptr},
     KeyRow{'.', false, "", "", [](LabState& s) { s.playback.step(1); }, nullptr},
-    KeyRow{'p', false, "P", "play again from the first frame",
+    KeyRow{'p', false, "P", "play again from the first pass",
            [](LabState& s) { s.playback.restart(); }, nullptr},
 
     KeyRow{'l', false, "L", "layout: four columns, 2 × 2, one large", next_layout, nullptr},

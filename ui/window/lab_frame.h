@@ -26,9 +26,9 @@ struct ReferenceOrder {
   std::uint64_t spp = 0;       ///< to compute, at least; 0: what there is, and no more
 };
 
-/// All lanes shall take the same, or come as far, by this frame; exactly one is given.
+/// All lanes shall take the same, or come as far, by this pass; exactly one is given.
 struct EqualiseOrder {
-  std::uint32_t frames = 15;
+  std::uint32_t passes = 15;
   std::optional<double> spp;      ///< mean
   std::optional<double> seconds;  ///< as if alone
   std::optional<double> error;    ///< in the metric of the request

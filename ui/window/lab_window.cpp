@@ -144,7 +144,7 @@ void LabWindow::keep_request_consistent(bool reference_pending) {
     request.lanes.reference.reset();  // of another view; the next frame will bring what is right
     reference_pending = true;
   }
-  request.lanes.frame = state_.playback.wanted();
+  request.lanes.pass = state_.playback.wanted();
   // Without the truth there is nothing that such a lane could look at.
   for (SamplingPolicy& policy : request.lanes.policies) {
     if (!request.lanes.reference && !reference_pending &&
@@ -204,7 +204,7 @@ LabOrders LabWindow::draw(const LabInput& input) {
   }
   const bool current = snapshot_ && snapshot_->scene == state_.request.store.scene &&
                        snapshot_->settings == state_.request.store.settings;
-  orders.animate = state_.playback.update(current ? snapshot_->frame : 0, input.seconds);
+  orders.animate = state_.playback.update(current ? snapshot_->pass : 0, input.seconds);
 
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, 0});

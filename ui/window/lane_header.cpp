@@ -175,7 +175,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
   if (!shown || shown->history.empty()) {
     return;
   }
-  const FrameRecord& last = shown->history.back();
+  const PassRecord& last = shown->history.back();
   const double share = 100.0 * double(last.not_done) / double(frame.snapshot->pixels());
   const std::string seconds = last.seconds < 100.0 ? fmt::format("{:.2f} s", last.seconds)
                                                    : fmt::format("{:.0f} s", last.seconds);

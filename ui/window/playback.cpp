@@ -5,7 +5,7 @@
 namespace quartet {
 namespace {
 
-constexpr double seconds_a_frame = 0.12;
+constexpr double seconds_a_pass = 0.12;
 
 }  // namespace
 
@@ -27,14 +27,14 @@ void Playback::pause() {
   wanted_ = std::max(1u, shown_);
 }
 
-void Playback::seek(std::uint32_t frame) {
+void Playback::seek(std::uint32_t pass) {
   playing_ = false;
-  wanted_ = std::max(1u, frame);
+  wanted_ = std::max(1u, pass);
 }
 
-void Playback::step(int frames) {
+void Playback::step(int passes) {
   const std::uint32_t from = playing_ ? std::max(1u, shown_) : wanted_;
-  seek(frames < 0 && from <= std::uint32_t(-frames) ? 1 : from + std::uint32_t(frames));
+  seek(passes < 0 && from <= std::uint32_t(-passes) ? 1 : from + std::uint32_t(passes));
 }
 
 void Playback::restart() {
@@ -52,10 +52,10 @@ bool Playback::update(std::uint32_t shown, double seconds) {
     wanted_ = target_;
     return false;
   }
-  // The frame asked for must be on screen before the next one is asked for.
+  // The pass asked for must be on screen before the next one is asked for.
   if (shown == wanted_ && seconds >= next_step_) {
     ++wanted_;
-    next_step_ = seconds + seconds_a_frame;
+    next_step_ = seconds + seconds_a_pass;
   }
   return true;
 }

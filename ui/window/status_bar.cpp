@@ -23,19 +23,19 @@ std::string bytes_text(double bytes) {
 
 std::string activity_text(const SessionStatus& status) {
   using Activity = SessionStatus::Activity;
-  const std::string target = status.frame_target == LaneRequest::no_end
+  const std::string target = status.pass_target == LaneRequest::no_end
                                  ? std::string("∞")
-                                 : fmt::format("{}", status.frame_target);
+                                 : fmt::format("{}", status.pass_target);
   switch (status.activity) {
     case Activity::tracing:
-      return fmt::format("tracing after frame {} of {} · {} samples/s", status.frame, target,
+      return fmt::format("tracing after pass {} of {} · {} samples/s", status.pass, target,
                          count_text(status.samples_per_second));
     case Activity::replaying:
-      return fmt::format("replaying to frame {}", target);
+      return fmt::format("replaying to pass {}", target);
     case Activity::idle:
       break;
   }
-  return status.frame > 0 ? fmt::format("all lanes at frame {}", status.frame) : "idle";
+  return status.pass > 0 ? fmt::format("all lanes at pass {}", status.pass) : "idle";
 }
 
 /// Ends what is being loaded or saved; at `right`. Returns its width.

@@ -101,12 +101,12 @@ void draw_transport(LabFrame& frame, float) {
   if (icon_button(ui, "to_start", Icon::to_start)) {
     playback.seek(1);
   }
-  tooltip(ui, "First frame");
+  tooltip(ui, "First pass");
   next();
   if (icon_button(ui, "back", Icon::back, playback.shown() > 1)) {
     playback.step(-1);
   }
-  tooltip(ui, "One frame back  ( , )");
+  tooltip(ui, "One pass back  ( , )");
   next();
   const bool at_end = playback.playing() && playback.shown() >= playback.target();
   const bool running = playback.playing() && !at_end;
@@ -118,32 +118,31 @@ void draw_transport(LabFrame& frame, float) {
   if (icon_button(ui, "forward", Icon::forward)) {
     playback.step(1);
   }
-  tooltip(ui, "One frame forward  ( . )");
+  tooltip(ui, "One pass forward  ( . )");
   next();
   if (icon_button(ui, "restart", Icon::restart)) {
     playback.restart();
   }
-  tooltip(ui, "Play again from the first frame  (P)");
+  tooltip(ui, "Play again from the first pass  (P)");
 }
 
 float transport_width(const Ui& ui) {
   return 5 * 1.15f * ImGui::GetFrameHeight() + 4 * ui.px(4.0f);
 }
 
-std::string frame_text(const Playback& playback) {
+std::string pass_text(const Playback& playback) {
   const std::string target = playback.target() == Playback::no_end
                                  ? std::string("∞")
                                  : fmt::format("{}", playback.target());
   return fmt::format("{} / {}", playback.shown(), target);
 }
 
-void draw_frame_slider(LabFrame& frame, float width) {
+void draw_pass_slider(LabFrame& frame, float width) {
   Playback& playback = frame.state.playback;
   Ui& ui = frame.ui;
   const float start = ImGui::GetCursorScreenPos().x;
-  leading_label(ui, "frame");
-  const float text =
-      std::max(ui.px(52.0f), text_width(ui.body, frame_text(playback)) + ui.px(8.0f));
+  leading_label(ui, "pass");
+  const float text = std::max(ui.px(52.0f), text_width(ui.body, pass_text(playback)) + ui.px(8.0f));
   std::uint32_t last = std::max(playback.furthest(), playback.shown());
   if (playback.target() != Playback::no_end) {
     last = std::max(last, playback.target());
@@ -151,14 +150,14 @@ void draw_frame_slider(LabFrame& frame, float width) {
   last = std::max(last, 2u);
   float at = float(playback.playing() ? std::max(1u, playback.shown()) : playback.wanted());
   const float track = width - (ImGui::GetCursorScreenPos().x - start) - text;
-  if (slider(ui, "frame", at, {1.0f, float(last)}, track, palette::text)) {
+  if (slider(ui, "pass", at, {1.0f, float(last)}, track, palette::text)) {
     playback.seek(std::uint32_t(std::lround(at)));
   }
-  tooltip(ui, "Scrub: the lanes replay to this frame");
+  tooltip(ui, "Scrub: the lanes replay to this pass");
   const ImVec2 knob_row = ImGui::GetItemRectMin();
   text_at(ui.body, ImGui::GetItemRectMax().x + ui.px(6.0f),
           knob_row.y + 0.5f * (ImGui::GetFrameHeight() - font_size(ui.body)), palette::text,
-          frame_text(playback));
+          pass_text(playback));
 }
 
 void draw_target(LabFrame& frame, float width) {
@@ -180,7 +179,7 @@ void draw_target(LabFrame& frame, float width) {
     }
     return changed;
   });
-  tooltip(frame.ui, "Frames to play: 15 as in the report, ∞ to go on until you pause");
+  tooltip(frame.ui, "Passes to play: 15 as in the report, ∞ to go on until you pause");
 }
 
 void draw_export(LabFrame& frame, float width) {
@@ -218,7 +217,7 @@ std::vector<Item> items(const LabFrame& frame, bool compact) {
       {combo_width(ui, size_text(settings.width, settings.height)), draw_size},
       {labelled("seed", ui.px(44.0f)), draw_seed},
       {transport_width(ui), draw_transport, false, true},
-      {labelled("frame", ui.px(compact ? 90.0f : 110.0f)), draw_frame_slider, true},
+      {labelled("pass", ui.px(compact ? 90.0f : 110.0f)), draw_pass_slider, true},
       {labelled("to", combo_width(ui, compact ? "15" : "120")), draw_target},
       {exposure_width(), draw_exposure, false, true},
       {combo_width(ui, compact ? std::string(tone_map_row(state.view.tone_map).label) : "Reinhard"),

@@ -7,7 +7,7 @@ namespace {
 /// Rigau, Feixas and Sbert 2003: eight samples everywhere, then eight more wherever the error is
 /// above the threshold, until it is so nowhere.
 void plan_batch(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
-  if (input.frame == 0) {
+  if (input.pass == 0) {
     plan_everywhere(plan, chosen_samples(policy.allocation.first, usual_batch));
   } else {
     plan_not_done(policy, input, plan, chosen_samples(policy.allocation.batch, usual_batch));

@@ -9,7 +9,7 @@ namespace {
 /// pixel that is not done.
 void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
   constexpr std::uint16_t minimum = 16;
-  if (input.frame == 0) {
+  if (input.pass == 0) {
     plan_everywhere(plan, chosen_samples(policy.allocation.first, minimum));
     return;
   }

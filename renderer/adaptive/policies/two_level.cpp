@@ -6,11 +6,11 @@ namespace {
 
 /// Mitchell 1987: one sample everywhere, and after a single look eight more where it is needed.
 void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
-  if (input.frame == 0) {
+  if (input.pass == 0) {
     plan_everywhere(plan, chosen_samples(policy.allocation.first, 1));
   } else {
     const std::uint16_t batch = chosen_samples(policy.allocation.batch, usual_batch);
-    plan_not_done(policy, input, plan, input.frame == 1 ? batch : 0);
+    plan_not_done(policy, input, plan, input.pass == 1 ? batch : 0);
   }
 }
 

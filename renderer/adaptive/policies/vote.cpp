@@ -6,9 +6,9 @@
 namespace quartet {
 namespace {
 
-/// A uniform number in [0, 1) that belongs to (pixel, frame).
-float dither(std::uint32_t pixel, std::uint32_t frame) {
-  std::uint32_t x = pixel * 0x9e3779b9u + frame * 0x85ebca6bu;
+/// A uniform number in [0, 1) that belongs to (pixel, pass).
+float dither(std::uint32_t pixel, std::uint32_t pass) {
+  std::uint32_t x = pixel * 0x9e3779b9u + pass * 0x85ebca6bu;
   x ^= x >> 16;
   x *= 0x21f0aaadu;
   x ^= x >> 15;
@@ -20,7 +20,7 @@ float dither(std::uint32_t pixel, std::uint32_t frame) {
 /// The policy of the 2021 report: every pixel that is not done votes for itself and its up to
 /// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
 void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
-  if (input.frame == 0) {
+  if (input.pass == 0) {
     plan_everywhere(plan, 1);
     return;
   }
@@ -34,7 +34,7 @@ void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan)
 #pragma omp simd
       for (std::size_t x = 0; x < width; ++x) {
         const int votes = columns[x] + columns[x + 1] + columns[x + 2];
-        const float offset = dither(first + std::uint32_t(x), input.frame);
+        const float offset = dither(first + std::uint32_t(x), input.pass);
         wanted[x] = std::uint16_t(1 + int(multiplier * float(votes) + offset));
       }
     } else {

@@ -105,7 +105,7 @@ Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
 }
 
 void set_cost(Outcome& outcome, const Lane& lane) {
-  const FrameRecord& last = lane.history().back();
+  const PassRecord& last = lane.history().back();
   outcome.mean_spp = mean_spp(last, lane.film().size());
   outcome.mean_rays = mean_rays(last, lane.film().size());
   outcome.seconds = last.seconds;
@@ -115,8 +115,8 @@ Observation::Observation(const Truth& truth, const PixelRegion& region, double t
     : truth_(truth), region_(region), target_(target) {
 }
 
-void Observation::before_frame(const Lane& lane) {
-  if (lane.frame() == 0 || lane.plan().total == 0) {
+void Observation::before_pass(const Lane& lane) {
+  if (lane.pass() == 0 || lane.plan().total == 0) {
     return;
   }
   const std::vector<float> errors = squared_errors(lane.film().image(), *truth_.image);

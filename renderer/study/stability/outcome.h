@@ -36,7 +36,7 @@ struct Outcome {
   double missed = unknown;      ///< share of those done that are wrong nevertheless
   double never_done = unknown;  ///< share of the region that is at the maximum though not wrong
   double never_done_cost = unknown;  ///< share of all samples that those pixels took
-  double wasted = unknown;      ///< share of the samples after the first frame, of pixels not wrong
+  double wasted = unknown;      ///< share of the samples after the first pass, of pixels not wrong
   double off_oracle = unknown;  ///< share of the samples that an oracle would have put elsewhere
   double region_spp = unknown;  ///< mean samples of the region's pixels
   double rejected = unknown;    ///< share of the samples
@@ -49,13 +49,13 @@ Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
 /// Adds what a lane took.
 void set_cost(Outcome& outcome, const Lane& lane);
 
-/// Follows a lane from frame to frame.
+/// Follows a lane from pass to pass.
 class Observation {
  public:
   Observation(const Truth& truth, const PixelRegion& region, double target);
 
-  /// Before a lane takes its next frame.
-  void before_frame(const Lane& lane);
+  /// Before a lane takes its next pass.
+  void before_pass(const Lane& lane);
   /// `oracle` is samples per pixel of a lane that knows the truth.
   Outcome outcome(const Lane& lane, std::span<const std::uint32_t> oracle, const Audit& audit);
 
@@ -63,7 +63,7 @@ class Observation {
   const Truth& truth_;
   PixelRegion region_;
   double target_;
-  double spent_ = 0.0;   // samples after the first frame
+  double spent_ = 0.0;   // samples after the first pass
   double wasted_ = 0.0;  // of those
 };
 

@@ -94,7 +94,7 @@ void Study::tune(TrialSetup& setup) {
   Experiment experiment(sample_source(setup.scene, settings), settings.width, settings.height, lab,
                         setup.truth.image);
   // Every policy of the study ends by itself.
-  const CommonBudget budget{.frames = std::numeric_limits<std::uint32_t>::max(),
+  const CommonBudget budget{.passes = std::numeric_limits<std::uint32_t>::max(),
                             .spp = options_.spp};
   const auto tuned = [&](const SamplingPolicy& policy) {
     const std::optional<Calibration> found = calibrate(experiment, policy, budget, stop_);

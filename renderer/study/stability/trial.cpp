@@ -82,7 +82,7 @@ bool wants_samples(const Lab& lab) {
 Trial trial_of(const TrialSetup& setup, const Entry& entry, std::uint64_t seed, const Lane& lane,
                const Outcome& outcome) {
   return {setup.failure, entry.tuning, entry.variation, seed,
-          entry.policy,  lane.frame(), outcome,         rejected_of(lane, seed)};
+          entry.policy,  lane.pass(),  outcome,         rejected_of(lane, seed)};
 }
 
 /// Runs lanes, of which the first is the oracle, to their ends and measures each; appends to
@@ -101,7 +101,7 @@ bool run_entries(const TrialSetup& setup, const std::vector<Entry>& entries,
   std::vector<Observation> observations(entries.size(), Observation(truth, region, setup.target));
   const auto observe = [&] {
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      observations[i].before_frame(lab.lanes()[i]);
+      observations[i].before_pass(lab.lanes()[i]);
     }
   };
   observe();

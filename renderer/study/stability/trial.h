@@ -38,7 +38,7 @@ struct Trial {
   Variation variation = Variation::none;
   std::uint64_t seed = 0;
   SamplingPolicy policy;
-  std::uint32_t frames = 0;
+  std::uint32_t passes = 0;
   Outcome outcome;
   RejectedSamples rejected;
 };

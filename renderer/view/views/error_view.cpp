@@ -13,7 +13,7 @@ View draw_error(const Snapshot& snapshot, std::size_t lane, const ViewSettings&)
   if (scaled.empty()) {
     return blank_view(snapshot, estimator(snapshot.lanes[lane].policy.estimator).channels == 0
                                     ? "uniform sampling estimates no error"
-                                    : "no frame yet");
+                                    : "no pass yet");
   }
   return numbers_view(snapshot, scaled, {{0.0, 2.0, ColorMapId::turbo}, "", ""});
 }

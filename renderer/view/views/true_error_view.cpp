@@ -7,7 +7,7 @@ namespace quartet {
 namespace {
 
 /// On a scale that depends on nothing, so that a colour means the same in every lane, at every
-/// frame: from errors that are not seen to as large as the picture itself.
+/// pass: from errors that are not seen to as large as the picture itself.
 View draw_true_error(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
   const ScalarImage map =
       metric(MetricId::relmse).map(radiance_image(snapshot, lane), *snapshot.reference);

@@ -34,7 +34,7 @@ int decade_above(std::span<const float> numbers) {
 }
 
 /// Six powers of ten, up to the one above nearly all variances of all lanes. Powers of ten, because
-/// the scale would else drift with every frame.
+/// the scale would else drift with every pass.
 View draw_variance(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
   const std::size_t pixels = snapshot.pixels();
   std::vector<float> shown;

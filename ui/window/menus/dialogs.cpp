@@ -116,11 +116,11 @@ void draw_export_form(LabFrame& frame) {
     }
     ui.mark("export.cancel");
     ImGui::SameLine();
-    const bool ready = frame.snapshot && frame.snapshot->frame > 0 && !form.folder.empty();
+    const bool ready = frame.snapshot && frame.snapshot->pass > 0 && !form.folder.empty();
     if (!ready || frame.saving) {
       ImGui::TextDisabled(form.folder.empty() ? "into which folder?"
                           : frame.saving      ? "the one before is being saved"
-                                              : "no frame yet");
+                                              : "no pass yet");
     } else if (ImGui::Button("Save")) {
       frame.orders.save = form;
       form.open = false;

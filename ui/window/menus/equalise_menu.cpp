@@ -17,7 +17,7 @@ void fill(EqualiseForm& form, const Snapshot& snapshot) {
   form = {};
   const double lanes = double(snapshot.lanes.size());
   for (const LaneSnapshot& lane : snapshot.lanes) {
-    const FrameRecord& last = lane.history.back();
+    const PassRecord& last = lane.history.back();
     form.spp += float(mean_spp(last, snapshot.pixels()) / lanes);
     form.seconds += float(last.seconds / lanes);
     form.error += std::isnan(last.true_error) ? 0.0f : float(last.true_error / lanes);
@@ -45,10 +45,9 @@ void draw_menu(LabFrame& frame) {
   EqualiseForm& form = frame.state.equalise_form;
   Ui& ui = frame.ui;
   const MetricId chosen = frame.state.request.lanes.metric;
-  ImGui::TextDisabled("Thresholds with which all lanes have, after frame %u,",
-                      frame.snapshot->frame);
+  ImGui::TextDisabled("Thresholds with which all lanes have, after pass %u,", frame.snapshot->pass);
   EqualiseOrder order;
-  order.frames = frame.snapshot->frame;
+  order.passes = frame.snapshot->pass;
   if (edit_budget(ui, "equalise.spp", form.spp, "samples per pixel", "%.2f")) {
     order.spp = double(form.spp);
   }
@@ -84,7 +83,7 @@ float draw_equalise_menu(LabFrame& frame, const ScreenRect& bar, float right) {
   tooltip(ui, working ? "A click ends it"
                       : "Different criteria have different units: find the thresholds with which "
                         "all lanes take the same samples or seconds, or reach the same error");
-  const bool ready = frame.snapshot && frame.snapshot->frame > 0;
+  const bool ready = frame.snapshot && frame.snapshot->pass > 0;
   if (pressed && working) {
     frame.orders.stop_equalising = true;
   } else if (pressed && ready) {

@@ -51,7 +51,7 @@ std::vector<TableRow> lines_of(const LabFrame& frame) {
   return lines;
 }
 
-/// The metric of the curves is known for every frame; the others follow once the lanes rest.
+/// The metric of the curves is known for every pass; the others follow once the lanes rest.
 double value_of(const LabFrame& frame, const TableRow& line, const Metric& row) {
   if (row.key == frame.snapshot->metric && !line.lane->history.empty()) {
     return line.lane->history.back().true_error;
@@ -159,7 +159,7 @@ std::optional<double> noise_floor(const LabFrame& frame, MetricId key) {
 }
 
 void draw_metric_table(LabFrame& frame, const ScreenRect& box) {
-  if (!frame.snapshot || frame.snapshot->frame == 0) {
+  if (!frame.snapshot || frame.snapshot->pass == 0) {
     return;
   }
   Ui& ui = frame.ui;

@@ -8,7 +8,7 @@ namespace quartet {
 
 const View* PictureCache::get(std::size_t texture_slot, const LabFrame& frame, std::size_t lane,
                               const SlotChoice& choice) {
-  if (!frame.lane(lane) || frame.snapshot->frame == 0) {
+  if (!frame.lane(lane) || frame.snapshot->pass == 0) {
     return nullptr;
   }
   if (texture_slot >= entries_.size()) {

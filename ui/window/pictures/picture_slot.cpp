@@ -232,7 +232,7 @@ void draw_pixels(LabFrame& frame, const PictureSlot& slot, const View* picture,
     draw_note(ui, slot.box,
               frame.loading                      ? "loading the scene"
               : !frame.state.request.store.scene ? "no scene is loaded"
-              : frame.status.error.empty()       ? "waiting for the first frame"
+              : frame.status.error.empty()       ? "waiting for the first pass"
                                                  : "nothing was rendered");
   } else if (picture->image.empty()) {
     draw_note(ui, slot.box, picture->note);

@@ -1,11 +1,11 @@
-#include "renderer/adaptive/frame_history.h"
+#include "renderer/adaptive/pass_history.h"
 
 #include <algorithm>
 
 namespace quartet {
 
-void FrameHistory::push(const FrameRecord& record, const SampleCosts::Work& work) {
-  if (!records_.empty() && records_.back().frame % stride_ != 0) {
+void PassHistory::push(const PassRecord& record, const SampleCosts::Work& work) {
+  if (!records_.empty() && records_.back().pass % stride_ != 0) {
     records_.pop_back();  // kept only for being the last
     charges_.pop_back();
   }
@@ -13,7 +13,7 @@ void FrameHistory::push(const FrameRecord& record, const SampleCosts::Work& work
     stride_ *= 2;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < records_.size(); ++i) {
-      if (records_[i].frame % stride_ == 0) {
+      if (records_[i].pass % stride_ == 0) {
         records_[kept] = records_[i];
         charges_[kept] = charges_[i];
         ++kept;
@@ -26,13 +26,13 @@ void FrameHistory::push(const FrameRecord& record, const SampleCosts::Work& work
   charges_.push_back({work, record.seconds});
 }
 
-void FrameHistory::clear() {
+void PassHistory::clear() {
   records_.clear();
   charges_.clear();
   stride_ = 1;
 }
 
-void FrameHistory::charge(const SampleCosts& costs, bool last_only) {
+void PassHistory::charge(const SampleCosts& costs, bool last_only) {
   const std::size_t first = last_only && !records_.empty() ? records_.size() - 1 : 0;
   const SampleCosts::Rates rates = costs.rates();
   for (std::size_t i = first; i < records_.size(); ++i) {

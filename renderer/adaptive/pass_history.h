@@ -9,9 +9,9 @@
 
 namespace quartet {
 
-/// A lane at the end of one frame.
-struct FrameRecord {
-  std::uint32_t frame = 0;  ///< from 1
+/// A lane at the end of one pass.
+struct PassRecord {
+  std::uint32_t pass = 0;  ///< from 1
   /// Taken so far, rejected ones and those of a pilot run included: what the lane is charged for.
   std::uint64_t samples = 0;
   std::uint64_t pilot_samples = 0;  ///< of these, the ones of a pilot, which are not shown
@@ -29,26 +29,26 @@ struct FrameRecord {
   double true_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The frames of a lane in bounded memory: all of them up to `most_records`, then every second one,
+/// The passes of a lane in bounded memory: all of them up to `most_records`, then every second one,
 /// every fourth and so on, and always the last. Which are kept is a function of how many there
 /// were.
-class FrameHistory {
+class PassHistory {
  public:
   static constexpr std::size_t most_records = 4096;
 
-  /// `record.frame` must be the one after the last. Its seconds are those of the lane itself; what
+  /// `record.pass` must be the one after the last. Its seconds are those of the lane itself; what
   /// tracing took is added by charge(), for `work`.
-  void push(const FrameRecord& record, const SampleCosts::Work& work);
+  void push(const PassRecord& record, const SampleCosts::Work& work);
   void clear();
 
   /// Charges the records for the work of their samples, all by these costs: what a record said
   /// before is replaced. `last_only`: the others were charged by the same.
   void charge(const SampleCosts& costs, bool last_only);
 
-  std::uint32_t frames() const { return records_.empty() ? 0 : records_.back().frame; }
-  FrameRecord& back() { return records_.back(); }
-  std::span<FrameRecord> records() { return records_; }
-  std::span<const FrameRecord> records() const { return records_; }
+  std::uint32_t passes() const { return records_.empty() ? 0 : records_.back().pass; }
+  PassRecord& back() { return records_.back(); }
+  std::span<PassRecord> records() { return records_; }
+  std::span<const PassRecord> records() const { return records_; }
 
  private:
   /// What a record is charged for.
@@ -57,7 +57,7 @@ class FrameHistory {
     double own_seconds;
   };
 
-  std::vector<FrameRecord> records_;
+  std::vector<PassRecord> records_;
   std::vector<Charge> charges_;  // of the records
   std::uint32_t stride_ = 1;
 };
