@@ -35,14 +35,14 @@ void print_table(const BiasReport& report) {
              fmt::format("energy ({:g} % interval)", 100.0 * report.confidence), "p");
   for (const BiasRuns& runs : all) {
     fmt::print("{:<16} {:<9} {:>9.2f} {:>9.3f}  {:<26} {:>9.2g}\n",
-               estimator(runs.policy.estimator).id, sample_use(runs.policy.use).id,
+               estimator(runs.settings.estimator).id, sample_use(runs.settings.use).id,
                mean_of(runs.mean_spp), mean_of(runs.seconds), energy_text(report, runs),
                mean_p(runs.energy, 0.0));
   }
   for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
     fmt::print(
         "{}: mode unbiased takes {:.2f} × the time of reuse, and {:.2f} × for the same noise\n",
-        estimator(all[i].policy.estimator).id,
+        estimator(all[i].settings.estimator).id,
         mean_of(all[i + 1].seconds) / mean_of(all[i].seconds),
         price_of_unbiasedness(all[i], all[i + 1]));
   }
@@ -53,7 +53,7 @@ void check_modes(const BiasOptions& options) {
   for (const std::string& lane : options.lanes.lanes) {
     if (lane.find("mode=") != std::string::npos) {
       throw UsageError(
-          fmt::format("--lane: '{}': mode has no effect: each policy runs in both modes", lane));
+          fmt::format("--lane: '{}': mode has no effect: each lane runs in both modes", lane));
     }
   }
 }
@@ -66,10 +66,10 @@ void check_bias_size(const RenderSettings& settings, std::size_t runs) {
 }
 
 void run_bias(const BiasOptions& options, const Program& program) {
-  const std::vector<SamplingPolicy> policies =
-      policies_of(options.lanes, options.run.policy, {.passes = options.passes});
-  for (const SamplingPolicy& policy : policies) {
-    if (const Estimator& row = estimator(policy.estimator); row.needs_reference) {
+  const std::vector<LaneSettings> lane_settings =
+      settings_of_lanes(options.lanes, options.run.lane_settings, {.passes = options.passes});
+  for (const LaneSettings& settings : lane_settings) {
+    if (const Estimator& row = estimator(settings.estimator); row.needs_reference) {
       throw UsageError(fmt::format(
           "'{}' compares with a reference, and bias is measured without one, against uniform "
           "sampling; choose another estimator",
@@ -78,15 +78,15 @@ void run_bias(const BiasOptions& options, const Program& program) {
   }
   check_modes(options);
   check_seeds(options.run, options.seeds);
-  const Run run = prepare_run(options.run, 2 * policies.size());
-  check_bias_size(run.settings, 2 * policies.size());
+  const Run run = prepare_run(options.run, 2 * lane_settings.size());
+  check_bias_size(run.settings, 2 * lane_settings.size());
   StagedFiles files(options.out, bias_file_names());
   std::vector<BiasRuns> all;
   {
     const Interrupt interrupt;
     Progress progress("measuring bias");
     all = measure_bias(
-        run.scene, run.settings, policies, options.passes, options.seeds, run.lab,
+        run.scene, run.settings, lane_settings, options.passes, options.seeds, run.lab,
         [&](double done) {
           progress.update(
               done, fmt::format("seed {} of {}",
@@ -127,7 +127,7 @@ void add_bias_command(CLI::App& app, const Program& program) {
              "Of all intervals together, such as 0.99");
   add_out_option(*command, options->out);
   command->footer(
-      "Writes bias.png, bias.pdf, bias.exr and bias.csv. Each policy runs in both modes, reuse and "
+      "Writes bias.png, bias.pdf, bias.exr and bias.csv. Each lane runs in both modes, reuse and "
       "unbiased.\n"
       "Examples:\n"
       "  quartet bias cornell-checker --size 240x135 --seeds 16 --out bias\n"

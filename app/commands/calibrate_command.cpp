@@ -51,14 +51,15 @@ CommonBudget budget_of(const CalibrateOptions& options) {
 }
 
 std::vector<Calibration> calibrate_all(Experiment& experiment,
-                                       const std::vector<SamplingPolicy>& policies,
+                                       const std::vector<LaneSettings>& lane_settings,
                                        const CommonBudget& budget) {
   const Interrupt interrupt;
   Progress progress("calibrating");
   std::vector<Calibration> found;
-  for (const SamplingPolicy& policy : policies) {
-    progress.update(double(found.size()) / double(policies.size()), estimator(policy.estimator).id);
-    auto calibration = calibrate(experiment, policy, budget, interrupt.token());
+  for (const LaneSettings& settings : lane_settings) {
+    progress.update(double(found.size()) / double(lane_settings.size()),
+                    estimator(settings.estimator).id);
+    auto calibration = calibrate(experiment, settings, budget, interrupt.token());
     if (!calibration) {
       throw Interrupted();
     }
@@ -67,26 +68,26 @@ std::vector<Calibration> calibrate_all(Experiment& experiment,
   return found;
 }
 
-std::string thresholds_of(const SamplingPolicy& policy) {
-  const Estimator& row = estimator(policy.estimator);
+std::string thresholds_of(const LaneSettings& settings) {
+  const Estimator& row = estimator(settings.estimator);
   std::string text = row.channels == 0 ? "none" : "";
   for (int c = 0; c < row.channels; ++c) {
-    text += fmt::format("{}{:.6g}", c > 0 ? ", " : "", policy.thresholds[std::size_t(c)]);
+    text += fmt::format("{}{:.6g}", c > 0 ? ", " : "", settings.thresholds[std::size_t(c)]);
   }
   return text;
 }
 
 /// The words after "quartet figure SCENE" that show all of them side by side.
-std::string lane_words(const std::vector<Calibration>& found, std::uint32_t passes) {
+std::string lanes_text(const std::vector<Calibration>& found, std::uint32_t passes) {
   std::string words = fmt::format("--passes {}", passes);
   for (const Calibration& each : found) {
-    words += " --lane " + shell_word(lane_text(each.policy));
+    words += " --lane " + shell_word(lane_text(each.settings));
   }
   return words;
 }
 
 bool is_comparable(const Calibration& each) {
-  return each.met && estimator(each.policy.estimator).channels > 0;
+  return each.met && estimator(each.settings.estimator).channels > 0;
 }
 
 /// "contrast, kl" of those that a rule holds for.
@@ -95,7 +96,7 @@ std::string ids_of(const std::vector<Calibration>& found, const Rule& rule) {
   std::vector<std::string_view> ids;
   for (const Calibration& each : found) {
     if (rule(each)) {
-      ids.push_back(estimator(each.policy.estimator).id);
+      ids.push_back(estimator(each.settings.estimator).id);
     }
   }
   return fmt::format("{}", fmt::join(ids, ", "));
@@ -127,13 +128,13 @@ void print_table(const std::vector<Calibration>& found, const CommonBudget& budg
              budget.error ? fmt::format(" {:>11}", metric(budget.error->metric).id) : "");
   for (const Calibration& each : found) {
     fmt::print("{:<22} {:>9.4g} {:<30} {:>6} {:>9.2f} {:>9.3f}{}\n",
-               estimator(each.policy.estimator).label, each.factor, thresholds_of(each.policy),
+               estimator(each.settings.estimator).label, each.factor, thresholds_of(each.settings),
                each.result.record.pass, each.result.mean_spp, each.result.record.seconds,
                budget.error ? fmt::format(" {:>11.4g}", each.result.values.front()) : "");
   }
   for (const Calibration& each : found) {
     if (!each.met) {
-      fmt::print("{}: {} cannot be met: {}\n", estimator(each.policy.estimator).id, budget.text(),
+      fmt::print("{}: {} cannot be met: {}\n", estimator(each.settings.estimator).id, budget.text(),
                  each.reason);
     }
   }
@@ -142,25 +143,25 @@ void print_table(const std::vector<Calibration>& found, const CommonBudget& budg
   std::erase_if(comparable, [](const Calibration& each) { return !is_comparable(each); });
   if (!comparable.empty()) {
     fmt::print("quartet figure {} {} --out DIR{}\n", scene_words(options.run),
-               lane_words(comparable, budget.passes), missing_text(found, budget));
+               lanes_text(comparable, budget.passes), missing_text(found, budget));
   }
 }
 
 /// Throws UsageError for an option that no lane's search looks at.
-void check_use(const CalibrateOptions& options, std::span<const SamplingPolicy> policies,
+void check_use(const CalibrateOptions& options, std::span<const LaneSettings> lane_settings,
                const CommonBudget& budget) {
-  const auto has_threshold = [](const SamplingPolicy& policy) {
-    return estimator(policy.estimator).channels > 0;
+  const auto has_threshold = [](const LaneSettings& settings) {
+    return estimator(settings.estimator).channels > 0;
   };
-  if (options.passes && std::ranges::none_of(policies, has_threshold)) {
+  if (options.passes && std::ranges::none_of(lane_settings, has_threshold)) {
     throw UsageError(
         "--passes has no effect: without a threshold, as many passes are run as meet the budget");
   }
-  const auto needs_reference = [](const SamplingPolicy& policy) {
-    return estimator(policy.estimator).needs_reference;
+  const auto needs_reference = [](const LaneSettings& settings) {
+    return estimator(settings.estimator).needs_reference;
   };
   if (!options.reference.empty() && !budget.error &&
-      std::ranges::none_of(policies, needs_reference)) {
+      std::ranges::none_of(lane_settings, needs_reference)) {
     throw UsageError("--reference has no effect: it is for --error, and for the estimator oracle");
   }
 }
@@ -174,7 +175,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
   json["passes"] = budget.passes;
   json["estimators"] = nlohmann::ordered_json::array();
   for (const Calibration& each : found) {
-    const Estimator& row = estimator(each.policy.estimator);
+    const Estimator& row = estimator(each.settings.estimator);
     nlohmann::ordered_json entry;
     entry["estimator"] = row.id;
     entry["met"] = each.met;
@@ -182,8 +183,8 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
       entry["reason"] = each.reason;
     }
     entry["factor"] = each.factor;
-    entry["thresholds"] = std::vector<float>(each.policy.thresholds.begin(),
-                                             each.policy.thresholds.begin() + row.channels);
+    entry["thresholds"] = std::vector<float>(each.settings.thresholds.begin(),
+                                             each.settings.thresholds.begin() + row.channels);
     entry["passes"] = each.result.record.pass;
     entry["mean_spp"] = each.result.mean_spp;
     entry["rays"] = each.result.record.rays;
@@ -192,7 +193,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
       entry[std::string(metric(budget.error->metric).id)] = each.result.values.front();
     }
     entry["runs"] = each.runs;
-    entry["lane"] = lane_text(each.policy);
+    entry["lane"] = lane_text(each.settings);
     json["estimators"].push_back(std::move(entry));
   }
   return json_text(json);
@@ -200,19 +201,19 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
 
 void run_calibrate(const CalibrateOptions& options, const Program& program) {
   const CommonBudget budget = budget_of(options);
-  const std::vector<SamplingPolicy> policies =
-      policies_of(options.lanes, options.run.policy, {.passes = options.passes, .spp = budget.spp});
-  check_use(options, policies, budget);
+  const std::vector<LaneSettings> lane_settings = settings_of_lanes(
+      options.lanes, options.run.lane_settings, {.passes = options.passes, .spp = budget.spp});
+  check_use(options, lane_settings, budget);
   Run run = prepare_run(options.run, 1);
   run.lab.statistics = {};
   std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
   if (!reference && budget.error) {
     reference = reference_for(run, options.reference_spp, program.command_line);
   }
-  run.lab.reference = truth_for(policies, reference);
+  run.lab.reference = truth_for(lane_settings, reference);
   Experiment experiment(sample_source(run.scene, run.settings), run.settings.width,
                         run.settings.height, run.lab, image_of(reference));
-  const std::vector<Calibration> found = calibrate_all(experiment, policies, budget);
+  const std::vector<Calibration> found = calibrate_all(experiment, lane_settings, budget);
   if (options.json) {
     fmt::print("{}\n", json_of(found, budget, run, program.command_line));
   } else {

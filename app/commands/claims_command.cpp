@@ -69,7 +69,7 @@ void add_claims_command(CLI::App& app, const Program& program) {
   CLI::App* command = app.add_subcommand(
       "claims", "The findings of the 2021 report on adaptive sampling, measured");
   const auto options = std::make_shared<ClaimsOptions>();
-  // Its policies are those of the report: nothing of them can be chosen.
+  // Its lanes are those of the report: nothing of them can be chosen.
   add_scene_options(*command, options->run);
   add_threads_option(*command, options->run);
   add_memory_option(*command, options->run);

@@ -45,8 +45,9 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
                            : "";
     // Labels are UTF-8: fmt pads by what is seen.
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",
-               estimator(lane.policy.estimator).label, last.pass, mean_spp(last, snapshot.pixels()),
-               last.max_spp, last.seconds, 100.0 * double(last.not_done) / pixels, error);
+               estimator(lane.settings.estimator).label, last.pass,
+               mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds,
+               100.0 * double(last.not_done) / pixels, error);
   }
   fmt::print("images.png, images.pdf, heatmaps.png, heatmaps.pdf and the panels are in {}\n",
              out.string());
@@ -61,16 +62,17 @@ void check_sizes(const RenderSettings& settings, std::size_t lanes, const ViewSe
 
 void run_figure(const FigureOptions& options, const Program& program) {
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  const std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run.policy, stop);
+  const std::vector<LaneSettings> lane_settings =
+      settings_of_lanes(options.lanes, options.run.lane_settings, stop);
   const ViewSettings view = view_settings(options.view);
-  Run run = prepare_run(options.run, policies.size());
+  Run run = prepare_run(options.run, lane_settings.size());
   check_rays(stop, run.scene->scene());
-  check_sizes(run.settings, policies.size(), view);
+  check_sizes(run.settings, lane_settings.size(), view);
   const auto reference = reference_at(options.reference, run);
-  run.lab.reference = truth_for(policies, reference);
-  StagedFiles files(options.out, lab_file_names(policies));
-  Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height, policies,
-          run.lab);
+  run.lab.reference = truth_for(lane_settings, reference);
+  StagedFiles files(options.out, lab_file_names(lane_settings));
+  Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height,
+          lane_settings, run.lab);
   Snapshot snapshot = run_to_end(lab, or_passes(stop), image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;

@@ -14,9 +14,9 @@ namespace {
 
 /// A lane that has ended goes on as one that wants nothing, so that nothing is traced for it.
 void park(Lab& lab, std::size_t lane) {
-  SamplingPolicy nothing = default_policy(EstimatorId::uniform);
+  LaneSettings nothing = default_settings(EstimatorId::uniform);
   nothing.max_spp = 1;
-  lab.set_policy(lane, nothing);
+  lab.set_settings(lane, nothing);
 }
 
 bool all_at_one_pass(const Lab& lab) {

@@ -74,7 +74,7 @@ void print_tables() {
     fmt::print("  {:<15} {}\n", row.id, row.source);
     if (row.channels > 0) {
       fmt::print("  {:<15} default {}, {}; policy {}\n", "",
-                 threshold_text(default_policy(row.key)), row.threshold_source,
+                 threshold_text(default_settings(row.key)), row.threshold_source,
                  allocation(row.default_allocation).id);
     }
   }

@@ -33,13 +33,14 @@ struct RenderOptions {
   std::string output;
 };
 
-SamplingPolicy render_policy(const RenderOptions& options, const StopConditions& stop) {
+LaneSettings chosen_settings(const RenderOptions& options, const StopConditions& stop) {
   const Estimator& row = find_estimator(options.estimator);
-  const ChosenLane lane{policy_of(options.run.policy, row.key), {}};
-  SamplingPolicy policy = checked_policies(options.run.policy, std::span(&lane, 1), stop).front();
+  const ChosenLane lane{settings_of(options.run.lane_settings, row.key), {}};
+  LaneSettings settings =
+      checked_settings(options.run.lane_settings, std::span(&lane, 1), stop).front();
   const std::vector<float>& given = options.thresholds;
   if (given.empty()) {
-    return policy;
+    return settings;
   }
   if (row.channels == 0) {
     throw UsageError(fmt::format("--threshold: estimator '{}' has none", row.id));
@@ -49,9 +50,9 @@ SamplingPolicy render_policy(const RenderOptions& options, const StopConditions&
                                  given.size(), row.id, row.channels == 1 ? "1" : "1 or 3"));
   }
   for (std::size_t c = 0; c < std::size_t(row.channels); ++c) {
-    policy.thresholds[c] = given[std::min(c, given.size() - 1)];
+    settings.thresholds[c] = given[std::min(c, given.size() - 1)];
   }
-  return policy;
+  return settings;
 }
 
 void write_output(const std::filesystem::path& path, const Program& program,
@@ -94,15 +95,15 @@ void run_render(const RenderOptions& options, const Program& program) {
     throw UsageError(fmt::format("-o: '{}' is neither .exr nor .png", options.output));
   }
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  const SamplingPolicy policy = render_policy(options, stop);
+  const LaneSettings settings = chosen_settings(options, stop);
   Run run = prepare_run(options.run, 1);
   check_rays(stop, run.scene->scene());
   check_render_output(options, run.settings);
   const auto reference = reference_at(options.reference, run);
-  run.lab.reference = truth_for(std::span(&policy, 1), reference);
+  run.lab.reference = truth_for(std::span(&settings, 1), reference);
   StagedFiles files(output.parent_path(), {output.filename().string()});
   Lab lab(sample_source(run.scene, run.settings), run.settings.width, run.settings.height,
-          std::span(&policy, 1), run.lab);
+          std::span(&settings, 1), run.lab);
   Snapshot snapshot = run_to_end(lab, or_passes(stop), image_of(reference));
   snapshot.scene = run.scene;
   snapshot.settings = run.settings;

@@ -161,25 +161,26 @@ PictureSize window_size(const ScreenshotOptions& options) {
   return size;
 }
 
-std::vector<SamplingPolicy> shown_policies(const ScreenshotOptions& options,
-                                           const StopConditions& stop) {
-  std::vector<SamplingPolicy> policies = policies_of(options.lanes, options.run.policy, stop);
-  if (policies.size() > lane_count) {
+std::vector<LaneSettings> shown_lanes(const ScreenshotOptions& options,
+                                      const StopConditions& stop) {
+  std::vector<LaneSettings> lane_settings =
+      settings_of_lanes(options.lanes, options.run.lane_settings, stop);
+  if (lane_settings.size() > lane_count) {
     throw UsageError(fmt::format(
         "{}: {} lanes are more than the {} that the window has; quartet "
         "figure takes any number",
-        options.lanes.lanes.empty() ? "--estimators" : "--lane", policies.size(), lane_count));
+        options.lanes.lanes.empty() ? "--estimators" : "--lane", lane_settings.size(), lane_count));
   }
-  return policies;
+  return lane_settings;
 }
 
 LabState state_of(const ScreenshotOptions& options, const Run& run,
-                  std::vector<SamplingPolicy> policies) {
+                  std::vector<LaneSettings> lane_settings) {
   LabState state = initial_state();
   set_scene(state, run.scene);
   state.scene = options.run.scene;
   state.request.store.settings = run.settings;
-  state.request.lanes.policies = std::move(policies);
+  state.request.lanes.settings = std::move(lane_settings);
   state.request.store.memory = run.lab.memory;
   state.request.store.threads = run.lab.threads;
   state.view = view_settings(options.view);
@@ -208,13 +209,13 @@ void run_screenshot(const ScreenshotOptions& options) {
   }
   const PictureSize size = window_size(options);
   const StopConditions stop = stop_conditions(options.stop, !options.reference.empty());
-  std::vector<SamplingPolicy> policies = shown_policies(options, stop);
-  check_views(options, policies.size());
-  const Run run = prepare_run(options.run, policies.size());
+  std::vector<LaneSettings> lane_settings = shown_lanes(options, stop);
+  check_views(options, lane_settings.size());
+  const Run run = prepare_run(options.run, lane_settings.size());
   check_rays(stop, run.scene->scene());
-  LabState state = state_of(options, run, std::move(policies));
+  LabState state = state_of(options, run, std::move(lane_settings));
   // Throws if it is unfit.
-  truth_for(state.request.lanes.policies, reference_at(options.reference, run));
+  truth_for(state.request.lanes.settings, reference_at(options.reference, run));
   StagedFiles files(output.parent_path(), {output.filename().string()});
   EndSeeker end(or_passes(stop), state.request.lanes.metric, state);
   Offscreen offscreen(size.width, size.height);

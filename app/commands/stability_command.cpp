@@ -107,7 +107,7 @@ void print_summary(const StabilityOptions& options, const StabilitySummary& summ
       }
     }
     fmt::print("{:<17} {:<16} {:<10} {:<19} {}\n", failure->id,
-               estimator(worst->policy.estimator).id,
+               estimator(worst->settings.estimator).id,
                worst->tuning == Tuning::usual ? "default" : "budget", verdict(*worst).label,
                verdict(*worst).number(*worst));
   }

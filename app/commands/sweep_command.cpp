@@ -57,8 +57,7 @@ void parse_range(const std::string& text, SweepPlan& plan) {
   plan.high = *high;
 }
 
-std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options,
-                                           const StopConditions& stop) {
+std::vector<LaneSettings> sweep_lanes(const SweepOptions& options, const StopConditions& stop) {
   LaneOptions lanes;
   lanes.estimators = options.estimators;
   if (lanes.estimators.empty()) {
@@ -66,19 +65,20 @@ std::vector<SamplingPolicy> sweep_policies(const SweepOptions& options,
       lanes.estimators.emplace_back(row.id);
     }
   }
-  std::vector<SamplingPolicy> policies = policies_of(lanes, options.run.policy, stop);
+  std::vector<LaneSettings> lane_settings =
+      settings_of_lanes(lanes, options.run.lane_settings, stop);
   // The baseline is in every sweep, with passes for its thresholds.
-  std::erase_if(policies, [](const SamplingPolicy& policy) {
-    return estimator(policy.estimator).channels == 0;
+  std::erase_if(lane_settings, [](const LaneSettings& settings) {
+    return estimator(settings.estimator).channels == 0;
   });
-  return policies;
+  return lane_settings;
 }
 
 SweepPlan sweep_plan(const SweepOptions& options) {
   SweepPlan plan = options.plan;
   parse_range(options.range, plan);
   plan.stop = stop_conditions(options.stop, true);
-  plan.policies = sweep_policies(options, plan.stop);
+  plan.lane_settings = sweep_lanes(options, plan.stop);
   // Beside what else is given.
   plan.stop.passes = plan.stop.passes.value_or(15);
   plan.stop.spp = plan.stop.spp.value_or(64.0);
@@ -101,11 +101,11 @@ void print_points(const SweepSummary& summary) {
   fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "estimator", "factor", "mean spp",
              "seconds", row.id, "of uniform");
   for (std::size_t begin = 0; begin < summary.points.size();) {
-    const EstimatorId id = summary.points[begin].policy.estimator;
+    const EstimatorId id = summary.points[begin].settings.estimator;
     const SweepPoint* normal = nullptr;
     const SweepPoint* best = &summary.points[begin];
     std::size_t end = begin;
-    for (; end < summary.points.size() && summary.points[end].policy.estimator == id; ++end) {
+    for (; end < summary.points.size() && summary.points[end].settings.estimator == id; ++end) {
       const SweepPoint& point = summary.points[end];
       normal = point.factor == 1.0 ? &point : normal;
       best = point.against_uniform < best->against_uniform ? &point : best;
@@ -132,12 +132,12 @@ void print_savings(const SweepResult& result) {
              result.partial ? "; some were traced again: a larger --memory would keep them" : "");
 }
 
-/// Reruns every policy at its default thresholds, and the baseline: out of shared samples, as the
+/// Reruns every lane at its default thresholds, and the baseline: out of shared samples, as the
 /// sweep did, and each alone, in turn, because the speed of a machine drifts. Compares what a user
 /// waits with what is charged, by the medians of some rounds.
 void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_token stop) {
   struct Point {
-    SamplingPolicy policy;
+    LaneSettings settings;
     Measurement end;
     std::vector<double> charged = {};
     std::vector<double> alone = {};
@@ -145,17 +145,18 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
     /// Runs it as far as the sweep did, and returns what that is charged with.
     double seconds(Experiment& experiment, std::stop_token stop) const {
       const auto run =
-          experiment.run({.policy = policy, .stop = {.passes = end.record.pass}}, stop);
+          experiment.run({.settings = settings, .stop = {.passes = end.record.pass}}, stop);
       if (!run) {
         throw Interrupted();
       }
       return run->back().record.seconds;
     }
   };
-  std::vector<Point> points{{default_policy(EstimatorId::uniform), result.uniform.front().back()}};
+  std::vector<Point> points{
+      {default_settings(EstimatorId::uniform), result.uniform.front().back()}};
   for (const SweepRun& run : result.runs) {
     if (run.seed == result.first_seed && run.factor == 1.0) {
-      points.push_back({run.policy, run.end});
+      points.push_back({run.settings, run.end});
     }
   }
   for (int round = 0; round < verify_rounds; ++round) {
@@ -177,7 +178,7 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
     const double alone = median(point.alone);
     const double difference = charged / alone - 1.0;
     fmt::print("{:<22} {:>9.2f} {:>14.3f} {:>14.3f} {:>+9.1f} %\n",
-               estimator(point.policy.estimator).label, point.end.mean_spp, charged, alone,
+               estimator(point.settings.estimator).label, point.end.mean_spp, charged, alone,
                100.0 * difference);
     sum += difference;
     absolute += std::abs(difference);

@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& text, const std::string& reason) {
   std::string words;
-  for (const PolicyWord& row : policy_words()) {
+  for (const LaneWord& row : lane_words()) {
     words += fmt::format("{}{}{}{}", words.empty() ? "" : ", ", row.word,
                          row.value.empty() ? "" : "=", row.value);
   }
@@ -35,10 +35,10 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 /// Reads one word of a lane that is not a threshold; false if none of the table is called so.
-bool read_word(const std::string& text, const std::string& word, PolicyOptions& own) {
+bool read_word(const std::string& text, const std::string& word, LaneSettingsOptions& own) {
   const std::size_t equals = word.find('=');
   const std::string name = word.substr(0, equals);
-  for (const PolicyWord& row : policy_words()) {
+  for (const LaneWord& row : lane_words()) {
     if (row.word != name) {
       continue;
     }
@@ -58,10 +58,10 @@ bool read_word(const std::string& text, const std::string& word, PolicyOptions& 
   return false;
 }
 
-ChosenLane lane_of(const std::string& text, const PolicyOptions& options) {
+ChosenLane lane_of(const std::string& text, const LaneSettingsOptions& options) {
   const std::size_t colon = text.find(':');
   const Estimator& row = find_estimator(text.substr(0, colon));
-  PolicyOptions own;
+  LaneSettingsOptions own;
   std::vector<float> thresholds;
   if (colon != std::string::npos) {
     for (const std::string& word : split(text.substr(colon + 1))) {
@@ -78,14 +78,14 @@ ChosenLane lane_of(const std::string& text, const PolicyOptions& options) {
       thresholds.push_back(*number);
     }
   }
-  ChosenLane lane{policy_of(options, row.key, own), own};
+  ChosenLane lane{settings_of(options, row.key, own), own};
   if (thresholds.size() == 1) {
-    lane.policy.thresholds.fill(thresholds.front());
+    lane.settings.thresholds.fill(thresholds.front());
   } else if (!thresholds.empty()) {
     if (thresholds.size() != std::size_t(row.channels)) {
       fail(text, fmt::format("{} thresholds, not 1 or {}", thresholds.size(), row.channels));
     }
-    std::ranges::copy(thresholds, lane.policy.thresholds.begin());
+    std::ranges::copy(thresholds, lane.settings.thresholds.begin());
   }
   return lane;
 }
@@ -105,27 +105,28 @@ void add_lane_options(CLI::App& command, LaneOptions& options) {
       ->excludes(estimators_option);
 }
 
-std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const PolicyOptions& policy,
-                                        const StopConditions& stop) {
+std::vector<LaneSettings> settings_of_lanes(const LaneOptions& options,
+                                            const LaneSettingsOptions& all,
+                                            const StopConditions& stop) {
   std::vector<ChosenLane> lanes;
   for (const std::string& text : options.lanes) {
-    lanes.push_back(lane_of(text, policy));
+    lanes.push_back(lane_of(text, all));
   }
   for (const std::string& id :
        options.lanes.empty() ? options.estimators : std::vector<std::string>()) {
     const EstimatorId key = find_estimator(id).key;
     for (const ChosenLane& other : lanes) {
-      if (other.policy.estimator == key) {
+      if (other.settings.estimator == key) {
         throw UsageError(fmt::format("--estimators: '{}' is named twice; name each once", id));
       }
     }
-    lanes.push_back({policy_of(policy, key), {}});
+    lanes.push_back({settings_of(all, key), {}});
   }
-  return checked_policies(policy, lanes, stop);
+  return checked_settings(all, lanes, stop);
 }
 
-std::string lane_text(const SamplingPolicy& policy) {
-  const Estimator& row = estimator(policy.estimator);
+std::string lane_text(const LaneSettings& settings) {
+  const Estimator& row = estimator(settings.estimator);
   std::string text(row.id);
   char separator = ':';
   const auto add = [&](const std::string& word) {
@@ -133,15 +134,15 @@ std::string lane_text(const SamplingPolicy& policy) {
     separator = ',';
   };
   for (int c = 0; c < row.channels; ++c) {
-    add(fmt::format("{}", policy.thresholds[std::size_t(c)]));
+    add(fmt::format("{}", settings.thresholds[std::size_t(c)]));
   }
   // Those without a value, which are the longest, last.
   for (const bool has_value : {true, false}) {
-    for (const PolicyWord& word : policy_words()) {
-      if (word.value.empty() == has_value || !word.read_by(policy)) {
+    for (const LaneWord& word : lane_words()) {
+      if (word.value.empty() == has_value || !word.read_by(settings)) {
         continue;
       }
-      if (const std::optional<std::string> value = word.said_of(policy)) {
+      if (const std::optional<std::string> value = word.said_of(settings)) {
         add(has_value ? fmt::format("{}={}", word.word, *value) : word.word);
       }
     }
@@ -149,9 +150,9 @@ std::string lane_text(const SamplingPolicy& policy) {
   return text;
 }
 
-SamplingPolicy policy_of_lane(const std::string& text, const PolicyOptions& options) {
+LaneSettings parse_lane(const std::string& text, const LaneSettingsOptions& options) {
   const ChosenLane lane = lane_of(text, options);
-  return checked_policies({}, std::span(&lane, 1), {}).front();
+  return checked_settings({}, std::span(&lane, 1), {}).front();
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {

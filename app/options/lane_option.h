@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/policy_options.h"
+#include "app/options/lane_settings_options.h"
 #include "renderer/view/views.h"
 
 namespace quartet {
@@ -17,16 +17,17 @@ struct LaneOptions {
 };
 
 void add_lane_options(CLI::App& command, LaneOptions& options);
-/// The policies of all lanes, for a run that ends as the user said in `stop`. Throws UsageError, as
-/// checked_policies does.
-std::vector<SamplingPolicy> policies_of(const LaneOptions& options, const PolicyOptions& policy,
-                                        const StopConditions& stop);
+/// The settings of all lanes, for a run that ends as the user said in `stop`. Throws UsageError, as
+/// checked_settings does.
+std::vector<LaneSettings> settings_of_lanes(const LaneOptions& options,
+                                            const LaneSettingsOptions& all,
+                                            const StopConditions& stop);
 
-/// A lane as one word, "kl:0.005,multiplier=0.5", with all that decides of its policy, so that
-/// policy_of_lane reads back one that does the same.
-std::string lane_text(const SamplingPolicy& policy);
+/// A lane as one word, "kl:0.005,multiplier=0.5", with all of its settings that count, so that
+/// parse_lane reads back one that does the same.
+std::string lane_text(const LaneSettings& settings);
 /// `options` hold where the word says nothing. Throws UsageError.
-SamplingPolicy policy_of_lane(const std::string& text, const PolicyOptions& options);
+LaneSettings parse_lane(const std::string& text, const LaneSettingsOptions& options);
 
 /// How pictures are shown, as options; what is not given is as ViewSettings has it.
 struct ViewOptions {

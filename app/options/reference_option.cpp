@@ -102,10 +102,10 @@ std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Refere
   return reference ? std::shared_ptr<const RadianceImage>(reference, &reference->image) : nullptr;
 }
 
-std::shared_ptr<const RadianceImage> truth_for(std::span<const SamplingPolicy> policies,
+std::shared_ptr<const RadianceImage> truth_for(std::span<const LaneSettings> lane_settings,
                                                const std::shared_ptr<const Reference>& reference) {
-  for (const SamplingPolicy& policy : policies) {
-    if (const Estimator& row = estimator(policy.estimator); row.needs_reference && !reference) {
+  for (const LaneSettings& settings : lane_settings) {
+    if (const Estimator& row = estimator(settings.estimator); row.needs_reference && !reference) {
       throw UsageError(fmt::format(
           "--reference: estimator '{}' compares with one, and none is given; make it with quartet "
           "reference",

@@ -30,7 +30,7 @@ std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Refere
 
 /// The same, for lanes that may look at it: throws UsageError where one of them must and there is
 /// none.
-std::shared_ptr<const RadianceImage> truth_for(std::span<const SamplingPolicy> policies,
+std::shared_ptr<const RadianceImage> truth_for(std::span<const LaneSettings> lane_settings,
                                                const std::shared_ptr<const Reference>& reference);
 
 /// A reference for the run with exactly so many samples a pixel: the cached one, else it is made,

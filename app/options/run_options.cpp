@@ -169,7 +169,7 @@ void add_run_options(CLI::App& command, RunOptions& options, const std::string& 
   add_scene_options(command, options, size_name);
   add_threads_option(command, options);
   add_memory_option(command, options);
-  add_policy_options(command, options.policy);
+  add_lane_settings_options(command, options.lane_settings);
 }
 
 Run prepare_run(const RunOptions& options, std::size_t lanes) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options/lane_settings_options.h"
 #include "app/options/number_option.h"
-#include "app/options/policy_options.h"
 #include "renderer/adaptive/lab.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/integrator.h"
@@ -27,7 +27,7 @@ struct RunOptions {
   std::vector<float> camera;
   int threads = 0;
   double memory_gib = 2.0;
-  PolicyOptions policy;
+  LaneSettingsOptions lane_settings;
 };
 
 /// Adds those that decide the value of a sample: scene, parameters, size, integrator, depth, seed,

@@ -57,8 +57,8 @@ Figure figure_of(const BiasReport& report) {
     FigurePanel panel;
     panel.image = DisplayImage(runs.difference.width(), runs.difference.height());
     apply(runs.difference.pixels(), figure.shared_bar->scale, panel.image.pixels());
-    panel.title = fmt::format("{}, {}, {}", estimator(runs.policy.estimator).label,
-                              threshold_text(runs.policy), sample_use(runs.policy.use).id);
+    panel.title = fmt::format("{}, {}, {}", estimator(runs.settings.estimator).label,
+                              threshold_text(runs.settings), sample_use(runs.settings.use).id);
     panel.lines = {
         fmt::format("energy {}", energy_text(report, runs)),
         fmt::format("{:.1f} spp, {:.2f} s a run", mean_of(runs.mean_spp), mean_of(runs.seconds))};
@@ -72,10 +72,10 @@ Figure figure_of(const BiasReport& report) {
 std::string csv_of(const BiasReport& report) {
   std::string csv(csv_header);
   for (const BiasRuns& runs : report.runs) {
-    const std::string lane =
-        fmt::format("{},{},{},{},{}", csv_field(report.run.scene->scene().name),
-                    estimator(runs.policy.estimator).id, allocation(runs.policy.allocation.kind).id,
-                    sample_use(runs.policy.use).id, thresholds_text(runs.policy));
+    const std::string lane = fmt::format(
+        "{},{},{},{},{}", csv_field(report.run.scene->scene().name),
+        estimator(runs.settings.estimator).id, allocation(runs.settings.allocation.kind).id,
+        sample_use(runs.settings.use).id, thresholds_text(runs.settings));
     const double pixels = double(runs.difference.size());
     for (std::size_t k = 0; k < runs.energy.size(); ++k) {
       csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,
@@ -104,8 +104,8 @@ ExrImage exr_of(const BiasReport& report) {
   exr.add_radiance(uniform);
   std::map<std::string, int> named;
   for (const BiasRuns& runs : report.runs) {
-    std::string name =
-        fmt::format("{}.{}", estimator(runs.policy.estimator).id, sample_use(runs.policy.use).id);
+    std::string name = fmt::format("{}.{}", estimator(runs.settings.estimator).id,
+                                   sample_use(runs.settings.use).id);
     // Several lanes may have the same estimator at other thresholds.
     if (const int before = named[name]++; before > 0) {
       name += fmt::format("-{}", before + 1);

@@ -26,7 +26,7 @@ struct BiasReport {
 /// How much more energy than uniform sampling, with its interval: "−0.588 % ± 0.590 %".
 std::string energy_text(const BiasReport& report, const BiasRuns& runs);
 
-/// bias.png and bias.pdf, the signed difference of each policy in each mode; bias.exr, the same in
+/// bias.png and bias.pdf, the signed difference of each lane in each mode; bias.exr, the same in
 /// numbers with their standard errors; bias.csv in long form, see csv_header: each seed, and the
 /// mean over all with its interval.
 void write_bias_files(StagedFiles& files, const BiasReport& report);

@@ -26,11 +26,11 @@ std::string passes_text(const Snapshot& snapshot) {
 }
 
 /// What the files of each lane are called, without extension.
-std::vector<std::string> lane_names(std::span<const SamplingPolicy> policies) {
+std::vector<std::string> lane_names(std::span<const LaneSettings> lane_settings) {
   std::vector<std::string> names;
   std::map<std::string, int> named;
-  for (const SamplingPolicy& policy : policies) {
-    std::string name(estimator(policy.estimator).id);
+  for (const LaneSettings& settings : lane_settings) {
+    std::string name(estimator(settings.estimator).id);
     if (const int before = named[name]++; before > 0) {
       name += fmt::format("-{}", before + 1);
     }
@@ -41,10 +41,10 @@ std::vector<std::string> lane_names(std::span<const SamplingPolicy> policies) {
 
 }  // namespace
 
-std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies) {
+std::vector<std::string> lab_file_names(std::span<const LaneSettings> lane_settings) {
   std::vector<std::string> names{"images.png",   "images.pdf", "heatmaps.png",
                                  "heatmaps.pdf", "panels.csv", "panels.json"};
-  for (const std::string& lane : lane_names(policies)) {
+  for (const std::string& lane : lane_names(lane_settings)) {
     names.insert(names.end(), {lane + ".exr", lane + ".png", lane + "-heatmap.png"});
   }
   return names;
@@ -65,9 +65,10 @@ void write_lab_files(StagedFiles& files, const Snapshot& snapshot, const ViewSet
   write_figure_png(heatmaps, files.stage("heatmaps.png"));
   check_cancelled(stop);
   write_figure_pdf(heatmaps, files.stage("heatmaps.pdf"));
-  std::vector<SamplingPolicy> policies;
-  std::ranges::transform(snapshot.lanes, std::back_inserter(policies), &LaneSnapshot::policy);
-  const std::vector<std::string> names = lane_names(policies);
+  std::vector<LaneSettings> lane_settings;
+  std::ranges::transform(snapshot.lanes, std::back_inserter(lane_settings),
+                         &LaneSnapshot::settings);
+  const std::vector<std::string> names = lane_names(lane_settings);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     check_cancelled(stop);
     const std::string& name = names[i];

@@ -13,7 +13,7 @@
 namespace quartet {
 
 /// The names of all that write_lab_files writes.
-std::vector<std::string> lab_file_names(std::span<const SamplingPolicy> policies);
+std::vector<std::string> lab_file_names(std::span<const LaneSettings> lane_settings);
 
 /// Everything that is saved of lanes at a pass, by the command line and by the window: the two
 /// figures (images and heatmaps, PNG and PDF), each lane's EXR, PNG and heatmap, panels.csv and

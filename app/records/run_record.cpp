@@ -30,20 +30,20 @@ int depth_number(int max_depth) {
   return max_depth == std::numeric_limits<int>::max() ? -1 : max_depth;
 }
 
-ordered_json policy_json(const SamplingPolicy& policy) {
-  const Estimator& row = estimator(policy.estimator);
+ordered_json lane_settings_json(const LaneSettings& settings) {
+  const Estimator& row = estimator(settings.estimator);
   ordered_json json;
   json["estimator"] = row.id;
   json["thresholds"] =
-      std::vector<float>(policy.thresholds.begin(), policy.thresholds.begin() + row.channels);
+      std::vector<float>(settings.thresholds.begin(), settings.thresholds.begin() + row.channels);
   json["unit"] = row.unit;
-  json["policy"] = allocation(policy.allocation.kind).id;
-  json["mode"] = sample_use(policy.use).id;
+  json["policy"] = allocation(settings.allocation.kind).id;
+  json["mode"] = sample_use(settings.use).id;
   for (const PolicyParameter& parameter : policy_parameters()) {
-    std::visit([&](const auto& value) { json[parameter.id] = policy.allocation.*value.member; },
+    std::visit([&](const auto& value) { json[parameter.id] = settings.allocation.*value.member; },
                parameter.value);
   }
-  json["max_spp"] = policy.max_spp;
+  json["max_spp"] = settings.max_spp;
   return json;
 }
 
@@ -105,7 +105,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
                                                   const std::string& run) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
   ordered_json settings = settings_json(snapshot.settings);
-  settings["policy"] = policy_json(shown.policy);
+  settings["lane"] = lane_settings_json(shown.settings);
   settings["passes"] = shown.history.empty() ? 0 : shown.history.back().pass;
   std::map<std::string, std::string> attributes{
       {"scene", snapshot.scene->scene().name},
@@ -113,7 +113,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
       {"seed", std::to_string(snapshot.settings.seed)},
       {"version", std::string(version())},
       {"commandLine", command_line},
-      {"mode", std::string(sample_use(shown.policy.use).id)},
+      {"mode", std::string(sample_use(shown.settings.use).id)},
       {"varianceMeaning", "Variance.*: unbiased estimate of the variance of the pixel mean"},
   };
   if (!run.empty()) {
@@ -156,7 +156,7 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
   json["lanes"] = ordered_json::array();
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
-    ordered_json entry = policy_json(lane.policy);
+    ordered_json entry = lane_settings_json(lane.settings);
     entry["rejected"] =
         std::accumulate(lane.rejected.begin(), lane.rejected.end(), std::uint64_t(0));
     entry["history"] = ordered_json::array();
@@ -180,10 +180,10 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
   return json_text(json) + "\n";
 }
 
-std::string thresholds_text(const SamplingPolicy& policy) {
+std::string thresholds_text(const LaneSettings& settings) {
   std::string text;
-  for (int c = 0; c < estimator(policy.estimator).channels; ++c) {
-    text += fmt::format("{}{}", c > 0 ? " " : "", policy.thresholds[std::size_t(c)]);
+  for (int c = 0; c < estimator(settings.estimator).channels; ++c) {
+    text += fmt::format("{}{}", c > 0 ? " " : "", settings.thresholds[std::size_t(c)]);
   }
   return text;
 }
@@ -193,14 +193,14 @@ std::string csv_record(const Snapshot& snapshot) {
   const std::string scene = csv_field(snapshot.scene->scene().name);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
-    const SamplingPolicy& policy = lane.policy;
+    const LaneSettings& settings = lane.settings;
     std::string row;
     for (const PassRecord& record : lane.history) {
       row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{},{:.6f}", scene,
-                        estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
-                        sample_use(policy.use).id, thresholds_text(policy), snapshot.settings.seed,
-                        record.pass, record.seconds, record.rays, record.samples,
-                        mean_spp(record, snapshot.pixels()));
+                        estimator(settings.estimator).id, allocation(settings.allocation.kind).id,
+                        sample_use(settings.use).id, thresholds_text(settings),
+                        snapshot.settings.seed, record.pass, record.seconds, record.rays,
+                        record.samples, mean_spp(record, snapshot.pixels()));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},pilot_samples,{}\n", row, record.pilot_samples);
       csv += fmt::format("{},refined_share,{:.6f}\n", row,

@@ -40,7 +40,7 @@ inline constexpr std::string_view csv_header =
     "scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,metric,"
     "value\n";
 /// The thresholds that matter, separated by spaces: no comma inside a CSV field.
-std::string thresholds_text(const SamplingPolicy& policy);
+std::string thresholds_text(const LaneSettings& settings);
 
 /// Long form, one row a measurement: scene, estimator, policy, thresholds, seed, pass, seconds,
 /// rays, samples, mean_spp, metric, value. Every pass of every lane; the errors against a

@@ -27,11 +27,11 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
                             (trial.variation == Variation::resolution ? 4.0 : 1.0);
       const std::string row = fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.0f},{:.6f}", result.failure->id,
-          result.failure->scene, estimator(trial.policy.estimator).id,
-          allocation(options.allocation).id, sample_use(trial.policy.use).id, id_of(trial.tuning),
-          variations()[std::size_t(trial.variation)].id, thresholds_text(trial.policy), trial.seed,
-          trial.passes, outcome.seconds, outcome.mean_rays * pixels, outcome.mean_spp * pixels,
-          outcome.mean_spp);
+          result.failure->scene, estimator(trial.settings.estimator).id,
+          allocation(options.allocation).id, sample_use(trial.settings.use).id, id_of(trial.tuning),
+          variations()[std::size_t(trial.variation)].id, thresholds_text(trial.settings),
+          trial.seed, trial.passes, outcome.seconds, outcome.mean_rays * pixels,
+          outcome.mean_spp * pixels, outcome.mean_spp);
       for (const OutcomeColumn& column : outcome_columns()) {
         const double value = outcome.*column.value;
         if (column.id != "seconds" && column.id != "mean_rays" && column.id != "mean_spp" &&
@@ -49,8 +49,8 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
               const Cell& cell) {
   const std::string row = fmt::format(
       "{},{},{},{},{},{},{:g},{:g}", cell.failure->id, cell.failure->scene,
-      estimator(cell.policy.estimator).id, allocation(options.allocation).id, id_of(cell.tuning),
-      thresholds_text(cell.policy), double(result.truth.spp), result.truth.noise);
+      estimator(cell.settings.estimator).id, allocation(options.allocation).id, id_of(cell.tuning),
+      thresholds_text(cell.settings), double(result.truth.spp), result.truth.noise);
   const auto number = [&](std::string_view metric, double value) {
     csv += fmt::format("{},{},{:.9g},,,\n", row, metric, value);
   };

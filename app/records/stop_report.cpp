@@ -56,11 +56,11 @@ void tell_if_capped(const CappedPixels& capped, CappedRun run) {
 
 void tell_if_short(const Snapshot& snapshot, const StopConditions& given) {
   for (const LaneSnapshot& lane : snapshot.lanes) {
-    const CappedPixels capped = capped_pixels(lane.taken, lane.policy);
+    const CappedPixels capped = capped_pixels(lane.taken, lane.settings);
     if (lane.plan.total == 0 && given.any() && !is_met(given, snapshot, lane)) {
       const PassRecord& last = lane.history.back();
       tell("{} ended after {} passes, at {:.2f} mean spp, before {}: {}",
-           estimator(lane.policy.estimator).id, last.pass, mean_spp(last, snapshot.pixels()),
+           estimator(lane.settings.estimator).id, last.pass, mean_spp(last, snapshot.pixels()),
            conditions_text(given),
            capped.count > 0 ? fmt::format("no pixel may have another sample; {} of {} have the {} "
                                           "that --max-spp allows",

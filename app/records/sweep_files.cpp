@@ -13,16 +13,16 @@
 namespace quartet {
 namespace {
 
-std::string row_head(const SweepReport& report, const SamplingPolicy& policy, std::uint64_t seed) {
+std::string row_head(const SweepReport& report, const LaneSettings& settings, std::uint64_t seed) {
   return fmt::format("{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
-                     estimator(policy.estimator).id, allocation(policy.allocation.kind).id,
-                     sample_use(policy.use).id, thresholds_text(policy), seed);
+                     estimator(settings.estimator).id, allocation(settings.allocation.kind).id,
+                     sample_use(settings.use).id, thresholds_text(settings), seed);
 }
 
-std::string measurement_head(const SweepReport& report, const SamplingPolicy& policy,
+std::string measurement_head(const SweepReport& report, const LaneSettings& settings,
                              std::uint64_t seed, const Measurement& measurement) {
   const PassRecord& record = measurement.record;
-  return fmt::format("{},{},{:.6f},{},{},{:.6f}", row_head(report, policy, seed), record.pass,
+  return fmt::format("{},{},{:.6f},{},{},{:.6f}", row_head(report, settings, seed), record.pass,
                      record.seconds, record.rays, record.samples, measurement.mean_spp);
 }
 
@@ -80,13 +80,13 @@ std::string sweep_csv(const SweepReport& report) {
   for (std::size_t k = 0; k < report.result.uniform.size(); ++k) {
     for (const Measurement& measurement : report.result.uniform[k]) {
       add_metrics(report,
-                  measurement_head(report, default_policy(EstimatorId::uniform),
+                  measurement_head(report, default_settings(EstimatorId::uniform),
                                    report.result.first_seed + k, measurement),
                   measurement, csv);
     }
   }
   for (const SweepRun& run : report.result.runs) {
-    const std::string head = measurement_head(report, run.policy, run.seed, run.end);
+    const std::string head = measurement_head(report, run.settings, run.seed, run.end);
     add_metrics(report, head, run.end, csv);
     for (const auto& [name, value] : {std::pair{"rank_correlation", run.quality.rank_correlation},
                                       {"false_stops", run.quality.stops.share()},
@@ -104,7 +104,7 @@ std::string calibration_csv(const SweepReport& report) {
       "scene,estimator,policy,mode,thresholds,seed,estimated_error,true_squared_error,pixels\n";
   for (const SweepRun& run : report.result.runs) {
     for (const CalibrationBin& bin : run.quality.calibration) {
-      csv += fmt::format("{},{:.6g},{:.6g},{}\n", row_head(report, run.policy, run.seed),
+      csv += fmt::format("{},{:.6g},{:.6g},{}\n", row_head(report, run.settings, run.seed),
                          bin.estimated, bin.true_squared_error, bin.pixels);
     }
   }

@@ -184,8 +184,8 @@ void LabDriver::submit() {
   // Whoever looks at the truth waits until it is known whether there is one.
   const bool lacks_truth =
       !wanted.lanes.reference &&
-      std::ranges::any_of(wanted.lanes.policies, [](const SamplingPolicy& policy) {
-        return estimator(policy.estimator).needs_reference;
+      std::ranges::any_of(wanted.lanes.settings, [](const LaneSettings& settings) {
+        return estimator(settings.estimator).needs_reference;
       });
   if (wanted.store.scene && !lacks_truth && wanted != submitted_) {
     submitted_ = wanted;
@@ -218,7 +218,7 @@ void LabDriver::keep_reference_current() {
 
 void LabDriver::equalise(const EqualiseOrder& order) {
   const LabRequest& wanted = window_.state().request;
-  EqualiseRequest request{wanted.store, wanted.lanes.policies, {}, wanted.lanes.reference};
+  EqualiseRequest request{wanted.store, wanted.lanes.settings, {}, wanted.lanes.reference};
   request.store.memory /= 2;
   request.budget.passes = order.passes;
   request.budget.spp = order.spp;
@@ -234,18 +234,18 @@ void LabDriver::equalise(const EqualiseOrder& order) {
 EqualiseProgress LabDriver::keep_equalising() {
   const auto latest = equaliser_.latest();
   if (equalise_request_ == 0 || latest->input != equalise_request_) {
-    return {equalise_request_ == 0 ? 0 : equalised_.policies.size(), 0};
+    return {equalise_request_ == 0 ? 0 : equalised_.lane_settings.size(), 0};
   }
   const EqualiseStatus& status = latest->output;
   if (!status.done) {
     return {status.lanes, status.calibrations.size()};
   }
   equalise_request_ = 0;
-  std::vector<SamplingPolicy>& lanes = window_.state().request.lanes.policies;
+  std::vector<LaneSettings>& lanes = window_.state().request.lanes.settings;
   for (std::size_t i = 0; i < std::min(lanes.size(), status.calibrations.size()); ++i) {
     // What the user has changed meanwhile stays.
-    if (lanes[i] == equalised_.policies[i]) {
-      lanes[i] = status.calibrations[i].policy;
+    if (lanes[i] == equalised_.lane_settings[i]) {
+      lanes[i] = status.calibrations[i].settings;
     }
   }
   window_.say(status.error.empty() ? Message::Kind::notice : Message::Kind::error,

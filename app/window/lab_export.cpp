@@ -65,7 +65,7 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
     }
   }
   for (const LaneSnapshot& lane : snapshot.lanes) {
-    command += " --lane " + lane_text(lane.policy);
+    command += " --lane " + lane_text(lane.settings);
   }
   if (!reference.empty()) {
     command += " --reference " + shell_word(reference.string());

@@ -12,36 +12,36 @@
 
 namespace quartet {
 
-Lab::Lab(SampleSource source, int width, int height, std::span<const SamplingPolicy> policies,
+Lab::Lab(SampleSource source, int width, int height, std::span<const LaneSettings> lane_settings,
          const LabOptions& options)
     : options_(options),
       // A film with statistics of its own adds samples up, and has no use for means.
       shown_{std::move(source),
              SampleStore(width, height, options.memory, !options.statistics.any())},
       arena_(options.threads > 0 ? options.threads : tbb::task_arena::automatic) {
-  check(policies, options_.reference.get());
-  for (const SamplingPolicy& policy : policies) {
-    lanes_.emplace_back(width, height, policy, lane_inputs());
+  check(lane_settings, options_.reference.get());
+  for (const LaneSettings& settings : lane_settings) {
+    lanes_.emplace_back(width, height, settings, lane_inputs());
   }
   make_pilot();
 }
 
-void Lab::check(std::span<const SamplingPolicy> policies, const RadianceImage* reference) const {
+void Lab::check(std::span<const LaneSettings> lane_settings, const RadianceImage* reference) const {
   if (reference && (reference->width() != width() || reference->height() != height())) {
     throw std::invalid_argument(fmt::format("the reference has {}x{} pixels and the picture {}x{}",
                                             reference->width(), reference->height(), width(),
                                             height()));
   }
-  for (const SamplingPolicy& policy : policies) {
-    const Estimator& row = estimator(policy.estimator);
+  for (const LaneSettings& settings : lane_settings) {
+    const Estimator& row = estimator(settings.estimator);
     if (row.needs_reference && !reference) {
       throw std::invalid_argument(
           fmt::format("estimator '{}' compares with a reference, and there is none", row.id));
     }
-    if (policy.use == SampleUse::unbiased && !options_.pilot_source) {
+    if (settings.use == SampleUse::unbiased && !options_.pilot_source) {
       throw std::invalid_argument(
           fmt::format("mode '{}' needs samples for its pilot run, and there is no source of them",
-                      sample_use(policy.use).id));
+                      sample_use(settings.use).id));
     }
   }
 }
@@ -49,7 +49,7 @@ void Lab::check(std::span<const SamplingPolicy> policies, const RadianceImage* r
 /// The store of pilot runs, with the first lane that has one; the two share the memory.
 void Lab::make_pilot() {
   const bool wanted = std::ranges::any_of(
-      lanes_, [](const Lane& lane) { return lane.policy().use == SampleUse::unbiased; });
+      lanes_, [](const Lane& lane) { return lane.settings().use == SampleUse::unbiased; });
   if (wanted && !pilot_) {
     const std::size_t half = options_.memory / 2;
     pilot_.emplace(Stream{options_.pilot_source,
@@ -63,7 +63,7 @@ LaneStores Lab::stores() const {
 }
 
 bool Lab::takes_from(const Lane& lane, const Stream& stream) const {
-  return &stream == &shown_ || lane.policy().use == SampleUse::unbiased;
+  return &stream == &shown_ || lane.settings().use == SampleUse::unbiased;
 }
 
 std::uint32_t Lab::pass() const {
@@ -206,30 +206,30 @@ void Lab::forget(Stream& stream) {
   store.trim(used);
 }
 
-void Lab::set_policy(std::size_t lane, const SamplingPolicy& policy) {
-  check(std::span(&policy, 1), options_.reference.get());
-  arena_.execute([&] { lanes_[lane].restart(policy, lane_inputs()); });
+void Lab::set_settings(std::size_t lane, const LaneSettings& settings) {
+  check(std::span(&settings, 1), options_.reference.get());
+  arena_.execute([&] { lanes_[lane].restart(settings, lane_inputs()); });
   make_pilot();
 }
 
-void Lab::set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics,
+void Lab::set_lanes(std::span<const LaneSettings> lane_settings, FilmStatistics statistics,
                     std::shared_ptr<const RadianceImage> reference) {
-  check(policies, reference.get());
+  check(lane_settings, reference.get());
   const bool other_truth = reference != options_.reference;
   options_.reference = std::move(reference);
   if (statistics != options_.statistics) {
     options_.statistics = statistics;
     lanes_.clear();
   }
-  while (lanes_.size() > policies.size()) {
+  while (lanes_.size() > lane_settings.size()) {
     lanes_.pop_back();
   }
-  for (std::size_t i = 0; i < policies.size(); ++i) {
+  for (std::size_t i = 0; i < lane_settings.size(); ++i) {
     if (i == lanes_.size()) {
-      lanes_.emplace_back(width(), height(), policies[i], lane_inputs());
-    } else if (lanes_[i].policy() != policies[i] ||
-               (other_truth && estimator(policies[i].estimator).needs_reference)) {
-      set_policy(i, policies[i]);
+      lanes_.emplace_back(width(), height(), lane_settings[i], lane_inputs());
+    } else if (lanes_[i].settings() != lane_settings[i] ||
+               (other_truth && estimator(lane_settings[i].estimator).needs_reference)) {
+      set_settings(i, lane_settings[i]);
     }
   }
   make_pilot();
@@ -252,7 +252,7 @@ void Lab::forget_true_errors() {
 void Lab::rewind_past(std::uint32_t pass) {
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     if (lanes_[i].pass() > pass) {
-      set_policy(i, SamplingPolicy(lanes_[i].policy()));
+      set_settings(i, LaneSettings(lanes_[i].settings()));
     }
   }
 }

@@ -28,9 +28,9 @@ struct LabOptions {
 /// Several lanes over one store of samples, and a second one for pilot runs where a lane has one.
 class Lab {
  public:
-  /// Throws std::invalid_argument where a policy needs a reference or a pilot source that is not
-  /// there, or a reference is of another size than the picture; so do set_policy and set_lanes.
-  Lab(SampleSource source, int width, int height, std::span<const SamplingPolicy> policies,
+  /// Throws std::invalid_argument where a lane needs a reference or a pilot source that is not
+  /// there, or a reference is of another size than the picture; so do set_settings and set_lanes.
+  Lab(SampleSource source, int width, int height, std::span<const LaneSettings> lane_settings,
       const LabOptions& options = {});
 
   int width() const { return shown_.store.width(); }
@@ -55,13 +55,13 @@ class Lab {
   /// store without samples is filled with its first ones whatever `stop` says.
   bool run_pass(std::stop_token stop = {});
 
-  /// Gives a lane another policy: it starts again at pass 0, out of stored samples.
-  void set_policy(std::size_t lane, const SamplingPolicy& policy);
+  /// Gives a lane other settings: it starts again at pass 0, out of stored samples.
+  void set_settings(std::size_t lane, const LaneSettings& settings);
 
-  /// Gives the lab these lanes. One whose policy and statistics stay as they are, and whose
+  /// Gives the lab these lanes. One whose settings and statistics stay as they are, and whose
   /// reference does if it needs one, keeps its pass; the others start again at pass 0, out of
   /// stored samples.
-  void set_lanes(std::span<const SamplingPolicy> policies, FilmStatistics statistics,
+  void set_lanes(std::span<const LaneSettings> lane_settings, FilmStatistics statistics,
                  std::shared_ptr<const RadianceImage> reference = nullptr);
 
   /// Writes `error_of` the picture into the last record of each lane where it is not known yet.
@@ -78,7 +78,7 @@ class Lab {
     SampleStore store;
   };
 
-  void check(std::span<const SamplingPolicy> policies, const RadianceImage* reference) const;
+  void check(std::span<const LaneSettings> lane_settings, const RadianceImage* reference) const;
   void make_pilot();
   LaneStores stores() const;
   LaneInputs lane_inputs() const { return {options_.statistics, options_.reference}; }

@@ -11,9 +11,10 @@ namespace quartet {
 namespace {
 
 /// What the shown film keeps; a pilot keeps what the estimator needs.
-FilmStatistics shown_statistics(const SamplingPolicy& policy, const LaneInputs& inputs) {
-  return policy.use == SampleUse::unbiased ? inputs.statistics
-                                           : inputs.statistics | estimator(policy.estimator).needs;
+FilmStatistics shown_statistics(const LaneSettings& settings, const LaneInputs& inputs) {
+  return settings.use == SampleUse::unbiased
+             ? inputs.statistics
+             : inputs.statistics | estimator(settings.estimator).needs;
 }
 
 /// Whether this pass is looked up; else the film is made ready to add.
@@ -42,17 +43,17 @@ void take_row(Film& film, const PassSamples& samples, int tile_row, bool looks_u
 
 }  // namespace
 
-Lane::Lane(int width, int height, const SamplingPolicy& policy, const LaneInputs& inputs)
+Lane::Lane(int width, int height, const LaneSettings& settings, const LaneInputs& inputs)
     : film_(width, height), taken_(film_.size(), 0) {
-  restart(policy, inputs);
+  restart(settings, inputs);
 }
 
-void Lane::restart(const SamplingPolicy& policy, const LaneInputs& inputs) {
-  policy_ = policy;
-  const Estimator& row = estimator(policy.estimator);
+void Lane::restart(const LaneSettings& settings, const LaneInputs& inputs) {
+  settings_ = settings;
+  const Estimator& row = estimator(settings.estimator);
   reference_ = row.needs_reference ? inputs.reference : nullptr;
-  film_.restart(shown_statistics(policy, inputs));
-  if (policy.use == SampleUse::reuse) {
+  film_.restart(shown_statistics(settings, inputs));
+  if (settings.use == SampleUse::reuse) {
     pilot_.reset();
   } else if (pilot_) {
     pilot_->restart(row.needs);
@@ -93,7 +94,7 @@ void Lane::take(const LaneStores& stores, int tile_row) {
 
 void Lane::end_pass(double take_seconds) {
   const Stopwatch watch;
-  const Estimator& row = estimator(policy_.estimator);
+  const Estimator& row = estimator(settings_.estimator);
   if (row.estimate) {
     error_.resize(std::size_t(row.channels) * film_.size());
     EstimatorInput input{deciding_film()};
@@ -165,7 +166,7 @@ void Lane::catch_up_pilot(const SampleStore& store) {
 
 /// Plans the pass after this one.
 void Lane::replan(std::uint32_t pass) {
-  plan_next(policy_, {film_.width(), film_.height(), error_, taken_, pass}, plan_);
+  plan_next(settings_, {film_.width(), film_.height(), error_, taken_, pass}, plan_);
 }
 
 }  // namespace quartet

@@ -25,13 +25,14 @@ struct LaneInputs {
   std::shared_ptr<const RadianceImage> reference;
 };
 
-/// One of the experiments that run side by side: a policy and what came of it. Its state is a
-/// function of (samples, policy, pass), with an oracle also of the reference, and of nothing else.
+/// One of the experiments that run side by side: its settings and what came of them. Its state is a
+/// function of (samples, settings, pass), with an oracle also of the reference, and of nothing
+/// else.
 class Lane {
  public:
-  Lane(int width, int height, const SamplingPolicy& policy, const LaneInputs& inputs);
+  Lane(int width, int height, const LaneSettings& settings, const LaneInputs& inputs);
 
-  const SamplingPolicy& policy() const { return policy_; }
+  const LaneSettings& settings() const { return settings_; }
   /// What is shown.
   const Film& film() const { return film_; }
   /// The film whose errors decide: a pilot of SampleUse::unbiased, or what is shown.
@@ -71,8 +72,8 @@ class Lane {
   void catch_up_shown(const SampleStore& store);
   void catch_up_pilot(const SampleStore& store);
 
-  /// Back to pass 0, with another policy or other inputs.
-  void restart(const SamplingPolicy& policy, const LaneInputs& inputs);
+  /// Back to pass 0, with other settings or other inputs.
+  void restart(const LaneSettings& settings, const LaneInputs& inputs);
 
  private:
   /// What a row of tiles adds to a pass's record.
@@ -86,7 +87,7 @@ class Lane {
   std::uint32_t count(std::size_t begin, std::size_t end);
   void replan(std::uint32_t pass);
 
-  SamplingPolicy policy_;
+  LaneSettings settings_;
   std::shared_ptr<const RadianceImage> reference_;
   Film film_;
   std::optional<Film> pilot_;

@@ -36,7 +36,7 @@ void copy_variance(const Film& film, std::vector<float>& variance) {
 
 void copy_lane(const Lane& lane, LaneSnapshot& snapshot) {
   const Film& film = lane.film();
-  snapshot.policy = lane.policy();
+  snapshot.settings = lane.settings();
   for (int c = 0; c < 3; ++c) {
     copy(film.mean(c), snapshot.mean[std::size_t(c)]);
   }

@@ -12,7 +12,7 @@ namespace quartet {
 /// What one lane looked like at the end of a pass: plain data, copied out of the lane, so that it
 /// may be kept and read while the lane goes on. Pixels are in rows from the top left.
 struct LaneSnapshot {
-  SamplingPolicy policy;
+  LaneSettings settings;
   std::array<std::vector<float>, 3> mean;  ///< linear radiance: red, green, blue of every pixel
   std::vector<std::uint32_t> taken;        ///< samples each pixel has used, rejected ones included
   std::vector<std::uint32_t> rejected;     ///< of these, a pixel; empty if none was

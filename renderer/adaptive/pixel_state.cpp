@@ -43,21 +43,21 @@ std::string_view pixel_state_label(PixelState state) {
   return state_labels[std::size_t(state)];
 }
 
-PixelCriterion::PixelCriterion(const SamplingPolicy& policy, std::span<const float> pixel_errors,
+PixelCriterion::PixelCriterion(const LaneSettings& settings, std::span<const float> pixel_errors,
                                std::span<const std::uint32_t> samples)
-    : thresholds(policy.thresholds),
-      minimum(minimum_samples(policy)),
-      maximum(policy.max_spp),
+    : thresholds(settings.thresholds),
+      minimum(minimum_samples(settings)),
+      maximum(settings.max_spp),
       error(pixel_errors),
       taken(samples) {
 }
 
 PixelCriterion::PixelCriterion(const Lane& lane)
-    : PixelCriterion(lane.policy(), lane.error(), lane.taken()) {
+    : PixelCriterion(lane.settings(), lane.error(), lane.taken()) {
 }
 
 PixelCriterion::PixelCriterion(const LaneSnapshot& lane)
-    : PixelCriterion(lane.policy, lane.error, lane.taken) {
+    : PixelCriterion(lane.settings, lane.error, lane.taken) {
 }
 
 void mark_not_done(const PixelCriterion& criterion, std::size_t first,

@@ -13,7 +13,7 @@ namespace quartet {
 
 class Lane;
 struct LaneSnapshot;
-struct SamplingPolicy;
+struct LaneSettings;
 
 /// What a lane's criterion says of a pixel.
 ///
@@ -36,7 +36,7 @@ std::string_view pixel_state_label(PixelState state);
 struct PixelCriterion {
   /// `pixel_errors` are channels × pixels, as an estimator writes them, or nothing where there are
   /// none (yet); `samples` are those that each pixel has used, rejected ones included.
-  PixelCriterion(const SamplingPolicy& policy, std::span<const float> pixel_errors,
+  PixelCriterion(const LaneSettings& settings, std::span<const float> pixel_errors,
                  std::span<const std::uint32_t> samples);
   // Implicit: functions that take a criterion take a lane.
   PixelCriterion(const Lane& lane);

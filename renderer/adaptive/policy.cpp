@@ -41,18 +41,18 @@ constexpr std::array use_table{
 
 }  // namespace
 
-std::uint32_t minimum_samples(const SamplingPolicy& policy) {
-  const auto minimum = estimator(policy.estimator).minimum_samples;
-  return minimum ? minimum(policy.thresholds) : 0;
+std::uint32_t minimum_samples(const LaneSettings& settings) {
+  const auto minimum = estimator(settings.estimator).minimum_samples;
+  return minimum ? minimum(settings.thresholds) : 0;
 }
 
-SamplingPolicy default_policy(EstimatorId estimator_id) {
-  SamplingPolicy policy;
-  policy.estimator = estimator_id;
+LaneSettings default_settings(EstimatorId estimator_id) {
+  LaneSettings settings;
+  settings.estimator = estimator_id;
   const Estimator& row = estimator(estimator_id);
-  policy.thresholds = row.default_thresholds;
-  policy.allocation.kind = row.default_allocation;
-  return policy;
+  settings.thresholds = row.default_thresholds;
+  settings.allocation.kind = row.default_allocation;
+  return settings;
 }
 
 std::span<const AllocationRow> allocations() {
@@ -80,22 +80,22 @@ const SampleUseRow& find_sample_use(std::string_view id) {
   return find_row(sample_uses(), id, "mode");
 }
 
-void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   const std::size_t pixels = input.taken.size();
   plan.wanted.resize(pixels);
   plan.total = 0;
   plan.not_done = pixels;
-  if (estimator(policy.estimator).channels == 0) {
+  if (estimator(settings.estimator).channels == 0) {
     plan_everywhere(plan, 1);  // without an error there is nothing to choose by
   } else {
-    allocation(policy.allocation.kind).plan(policy, input, plan);
+    allocation(settings.allocation.kind).plan(settings, input, plan);
   }
   std::atomic<std::uint64_t> total = 0;
   parallel_for((pixels + part_pixels - 1) / part_pixels, 1,
                [&](std::size_t first, std::size_t last) {
                  const std::uint32_t* taken = input.taken.data();
                  std::uint16_t* wanted = plan.wanted.data();
-                 const std::uint32_t most = policy.max_spp;
+                 const std::uint32_t most = settings.max_spp;
                  for (std::size_t part = first; part < last; ++part) {
                    const std::size_t end = std::min((part + 1) * part_pixels, pixels);
                    std::uint32_t sum = 0;

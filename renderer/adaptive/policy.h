@@ -40,20 +40,20 @@ enum class SampleUse {
 };
 
 /// What decides where a lane's samples go. A change replays the lane from its first pass.
-struct SamplingPolicy {
+struct LaneSettings {
   EstimatorId estimator = EstimatorId::contrast;
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
   Allocation allocation;
   std::uint32_t max_spp = 1u << 16;  ///< at most most_spp
   SampleUse use = SampleUse::reuse;
-  bool operator==(const SamplingPolicy&) const = default;
+  bool operator==(const LaneSettings&) const = default;
 };
 
 /// More samples than this no pixel can have: indices of samples are also counted with a sign.
 inline constexpr std::uint32_t most_spp = (1u << 31) - 1;
 
 /// The policy with an estimator's default thresholds and allocation.
-SamplingPolicy default_policy(EstimatorId estimator);
+LaneSettings default_settings(EstimatorId estimator);
 
 /// What a policy sees at the end of a pass.
 struct PlanInput {
@@ -73,7 +73,7 @@ struct Plan {
 };
 
 /// Samples below which no pixel is done, whatever its error: as the estimator has it.
-std::uint32_t minimum_samples(const SamplingPolicy& policy);
+std::uint32_t minimum_samples(const LaneSettings& settings);
 
 /// One row of the table of allocations.
 struct AllocationRow {
@@ -82,7 +82,7 @@ struct AllocationRow {
   std::string_view label;
   std::string_view source;
   std::span<const PolicyParameterId> parameters;  ///< that it reads
-  void (*plan)(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
+  void (*plan)(const LaneSettings& settings, const PlanInput& input, Plan& plan);
 };
 
 std::span<const AllocationRow> allocations();
@@ -105,6 +105,6 @@ const SampleUseRow& find_sample_use(std::string_view id);
 
 /// Plans the next pass, from nothing but the arguments; `plan` is overwritten. An estimator
 /// without an error gives every pixel one sample, whatever the allocation.
-void plan_next(const SamplingPolicy& policy, const PlanInput& input, Plan& plan);
+void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan);
 
 }  // namespace quartet

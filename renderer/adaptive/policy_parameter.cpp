@@ -42,9 +42,9 @@ bool reads(const AllocationRow& row, PolicyParameterId parameter) {
   return std::ranges::find(row.parameters, parameter) != row.parameters.end();
 }
 
-bool reads(const SamplingPolicy& policy, PolicyParameterId parameter) {
-  return estimator(policy.estimator).channels > 0 &&
-         reads(allocation(policy.allocation.kind), parameter);
+bool reads(const LaneSettings& settings, PolicyParameterId parameter) {
+  return estimator(settings.estimator).channels > 0 &&
+         reads(allocation(settings.allocation.kind), parameter);
 }
 
 }  // namespace quartet

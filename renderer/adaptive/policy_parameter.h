@@ -50,6 +50,6 @@ void copy_parameter(const PolicyParameter& row, const Allocation& from, Allocati
 bool reads(const AllocationRow& row, PolicyParameterId parameter);
 /// Whether a policy's allocation reads it: nothing under an estimator without an error, which has
 /// nothing to choose by.
-bool reads(const SamplingPolicy& policy, PolicyParameterId parameter);
+bool reads(const LaneSettings& settings, PolicyParameterId parameter);
 
 }  // namespace quartet

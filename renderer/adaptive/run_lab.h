@@ -9,7 +9,7 @@ class Lab;
 
 /// Runs a lab to its end: pass after pass, at least one, until `after_pass` returns that there
 /// shall be no other. That is called after each pass, on the calling thread, and may change the
-/// lab: give a lane another policy, say.
+/// lab: give a lane other settings, say.
 ///
 /// Returns whether it came to that end. False as soon as `stop` is requested: then no pass begins,
 /// the one under way is given up (see Lab::run_pass), and `after_pass` is called no more, not

@@ -8,7 +8,7 @@
 
 namespace quartet {
 
-/// Pixels of a run that have as many samples as its policy lets a pixel have: what they would have
+/// Pixels of a run that have as many samples as its settings let a pixel have: what they would have
 /// been given without it nobody knows.
 struct CappedPixels {
   std::size_t count = 0;
@@ -18,7 +18,7 @@ struct CappedPixels {
 };
 
 /// `taken` are samples of each pixel.
-CappedPixels capped_pixels(std::span<const std::uint32_t> taken, const SamplingPolicy& policy);
+CappedPixels capped_pixels(std::span<const std::uint32_t> taken, const LaneSettings& settings);
 /// Of what a lane shows.
 CappedPixels capped_pixels(const Lane& lane);
 

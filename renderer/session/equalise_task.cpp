@@ -31,12 +31,12 @@ struct Bench {
 void answer(Bench& bench, const EqualiseRequest& request, const std::stop_token& stop,
             const EqualiseTask::Publish& publish) {
   EqualiseStatus status;
-  status.lanes = request.policies.size();
+  status.lanes = request.lane_settings.size();
   publish(status);
   try {
-    for (std::size_t i = 0; request.store.scene && i < request.policies.size(); ++i) {
+    for (std::size_t i = 0; request.store.scene && i < request.lane_settings.size(); ++i) {
       std::optional<Calibration> found =
-          calibrate(bench.prepare(request), request.policies[i], request.budget, stop);
+          calibrate(bench.prepare(request), request.lane_settings[i], request.budget, stop);
       if (!found) {
         return;
       }

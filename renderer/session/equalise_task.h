@@ -14,7 +14,7 @@ namespace quartet {
 /// Lanes that are to get, or to reach, the same.
 struct EqualiseRequest {
   StoreRequest store;  ///< without a scene: nothing is wanted any more
-  std::vector<SamplingPolicy> policies;
+  std::vector<LaneSettings> lane_settings;
   CommonBudget budget;
   std::shared_ptr<const RadianceImage> reference;  ///< for an error as the budget
 };

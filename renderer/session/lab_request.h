@@ -28,7 +28,7 @@ struct LaneRequest {
   static constexpr std::uint32_t no_end = UINT32_MAX;
 
   /// One a lane; at least one. A change replays that lane from pass 1.
-  std::vector<SamplingPolicy> policies;
+  std::vector<LaneSettings> settings;
   /// Where the lanes shall stand, from 1; or no_end. A higher one: they go on. A lower one: they
   /// replay up to it.
   std::uint32_t pass = 15;

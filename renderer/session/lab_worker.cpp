@@ -20,7 +20,7 @@ void check(const LabRequest& request) {
   if (!request.store.scene) {
     throw std::invalid_argument("no scene to render");
   }
-  if (request.lanes.policies.empty()) {
+  if (request.lanes.settings.empty()) {
     throw std::invalid_argument("no lane to render");
   }
   const RenderSettings& settings = request.store.settings;
@@ -88,10 +88,10 @@ void LabWorker::begin(std::unique_ptr<Mailbox::Numbered> newest) {
 
 /// Of the lanes that were asked for and, if there is something to compare them with, of a last one
 /// of uniform sampling.
-std::vector<SamplingPolicy> LabWorker::policies() const {
-  std::vector<SamplingPolicy> all = current_->request.lanes.policies;
+std::vector<LaneSettings> LabWorker::lane_settings() const {
+  std::vector<LaneSettings> all = current_->request.lanes.settings;
   if (current_->request.lanes.reference) {
-    all.push_back(default_policy(EstimatorId::uniform));
+    all.push_back(default_settings(EstimatorId::uniform));
   }
   return all;
 }
@@ -111,7 +111,7 @@ void LabWorker::make_lab() {
   options.pilot_source = watched(pilot_source(request.store.scene, request.store.settings));
   lab_ = std::make_unique<Lab>(watched(sample_source(request.store.scene, request.store.settings)),
                                request.store.settings.width, request.store.settings.height,
-                               policies(), options);
+                               lane_settings(), options);
   measure_anew();
   owes_first_picture_ = request.lanes.pass > 0;
   board_.describe(*lab_);
@@ -126,7 +126,7 @@ void LabWorker::change_lab() {
   }
   FilmStatistics statistics;
   statistics.variance = request.lanes.variance;
-  lab_->set_lanes(policies(), statistics, request.lanes.reference);
+  lab_->set_lanes(lane_settings(), statistics, request.lanes.reference);
   if (is_answered_by_shown()) {
     publish_shown_again();
     return;
@@ -259,7 +259,7 @@ bool LabWorker::has_run_out() const {
 }
 
 std::span<const Lane> LabWorker::asked_lanes() const {
-  return lab_->lanes().first(current_->request.lanes.policies.size());
+  return lab_->lanes().first(current_->request.lanes.settings.size());
 }
 
 bool LabWorker::snapshot_is_due() const {

@@ -32,7 +32,7 @@ class LabWorker {
   struct Closed {};
 
   void begin(std::unique_ptr<Mailbox::Numbered> newest);
-  std::vector<SamplingPolicy> policies() const;
+  std::vector<LaneSettings> lane_settings() const;
   void make_lab();
   void change_lab();
   bool measure_anew();

@@ -103,17 +103,15 @@ double price_of_unbiasedness(const BiasRuns& reuse, const BiasRuns& unbiased) {
   return unbiased.noise * mean_of(unbiased.seconds) / (reuse.noise * mean_of(reuse.seconds));
 }
 
-std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
-                                   const RenderSettings& settings,
-                                   std::span<const SamplingPolicy> policies, std::uint32_t passes,
-                                   std::uint32_t seeds, const LabOptions& options,
-                                   const std::function<void(double)>& progress,
-                                   std::stop_token stop) {
-  std::vector<SamplingPolicy> lanes;
-  for (SamplingPolicy policy : policies) {
+std::vector<BiasRuns> measure_bias(
+    std::shared_ptr<const TraceScene> scene, const RenderSettings& settings,
+    std::span<const LaneSettings> lane_settings, std::uint32_t passes, std::uint32_t seeds,
+    const LabOptions& options, const std::function<void(double)>& progress, std::stop_token stop) {
+  std::vector<LaneSettings> lanes;
+  for (LaneSettings settings : lane_settings) {
     for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
-      policy.use = use;
-      lanes.push_back(policy);
+      settings.use = use;
+      lanes.push_back(settings);
     }
   }
   std::vector<BiasRuns> runs(lanes.size());
@@ -133,7 +131,7 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
     if (!ended) {
       return {};
     }
-    // Both modes of a policy against the same uniform picture.
+    // Both modes of a lane against the same uniform picture.
     const auto uniform_spp = [&](std::size_t lane) {
       const Lane& reuse = lab.lanes()[lane - lane % 2];
       return std::uint32_t(std::lround(mean_spp(reuse.history().back(), reuse.film().size())));
@@ -148,7 +146,7 @@ std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
       const RadianceImage shown = lane.film().image();
       const RadianceImage& other = uniform.at(uniform_spp(i));
       const PassRecord& last = lane.history().back();
-      runs[i].policy = lanes[i];
+      runs[i].settings = lanes[i];
       runs[i].mean_spp.push_back(mean_spp(last, shown.size()));
       runs[i].mean_rays.push_back(mean_rays(last, shown.size()));
       runs[i].seconds.push_back(last.seconds);

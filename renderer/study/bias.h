@@ -12,10 +12,10 @@
 
 namespace quartet {
 
-/// Independent runs of one policy in one mode, compared with uniform sampling of the same random
+/// Independent runs of one lane in one mode, compared with uniform sampling of the same random
 /// numbers and the same mean number of samples, which has no bias.
 struct BiasRuns {
-  SamplingPolicy policy;
+  LaneSettings settings;
   std::vector<double> mean_spp;   ///< one a seed; the pilot's samples included
   std::vector<double> mean_rays;  ///< a pixel, the pilot's included
   std::vector<double> seconds;    ///< as if alone
@@ -34,13 +34,14 @@ struct BiasRuns {
 /// reuse took: both fall as 1/samples.
 double price_of_unbiasedness(const BiasRuns& reuse, const BiasRuns& unbiased);
 
-/// Runs each policy in both modes, `passes` passes with each of the seeds settings.seed,
+/// Runs each lane in both modes, `passes` passes with each of the seeds settings.seed,
 /// settings.seed + 1, …, at least 2; results are reuse, unbiased, reuse, … in the order of the
-/// policies. `progress` gets the share that is done. Empty if `stop` ended it early.
+/// lanes. `progress` gets the share that is done. Empty if `stop` ended it early.
 std::vector<BiasRuns> measure_bias(std::shared_ptr<const TraceScene> scene,
                                    const RenderSettings& settings,
-                                   std::span<const SamplingPolicy> policies, std::uint32_t passes,
-                                   std::uint32_t seeds, const LabOptions& options,
+                                   std::span<const LaneSettings> lane_settings,
+                                   std::uint32_t passes, std::uint32_t seeds,
+                                   const LabOptions& options,
                                    const std::function<void(double)>& progress,
                                    std::stop_token stop = {});
 

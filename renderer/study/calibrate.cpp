@@ -46,13 +46,13 @@ double spending(const CommonBudget& budget, const Measurement& run) {
 /// One search; keeps the nearest run that was seen.
 class Search {
  public:
-  Search(Experiment& experiment, const SamplingPolicy& policy, const CommonBudget& budget,
+  Search(Experiment& experiment, const LaneSettings& settings, const CommonBudget& budget,
          std::stop_token stop)
-      : experiment_(experiment), policy_(policy), budget_(budget), stop_(std::move(stop)) {}
+      : experiment_(experiment), settings_(settings), budget_(budget), stop_(std::move(stop)) {}
 
   /// Whether it was not stopped.
   bool run() {
-    return estimator(policy_.estimator).channels == 0 ? run_uniform() : bracket() && bisect();
+    return estimator(settings_.estimator).channels == 0 ? run_uniform() : bracket() && bisect();
   }
 
   Calibration take() {
@@ -66,7 +66,7 @@ class Search {
 
  private:
   RunPlan plan(double factor) const {
-    RunPlan plan{.policy = scaled_thresholds(policy_, factor), .stop = {}};
+    RunPlan plan{.settings = scaled_thresholds(settings_, factor), .stop = {}};
     plan.stop.passes = budget_.passes;
     if (budget_.error) {
       plan.metrics = {budget_.error->metric};
@@ -84,11 +84,11 @@ class Search {
     return std::abs(std::log(spent)) < std::abs(std::log(best_spending_));
   }
 
-  void consider(const SamplingPolicy& policy, double factor, const Measurement& result,
+  void consider(const LaneSettings& settings, double factor, const Measurement& result,
                 double spent) {
     if (nearer(spent)) {
       best_spending_ = spent;
-      best_.policy = policy;
+      best_.settings = settings;
       best_.factor = factor;
       best_.result = result;
       best_.capped = capped_pixels(experiment_.lane());
@@ -107,7 +107,7 @@ class Search {
     const double spent = spending(budget_, result);
     // One that was cut short is on the far side, and no answer.
     if (result.record.pass == budget_.passes || experiment_.lane().plan().total == 0) {
-      consider(planned.policy, factor, result, spent);
+      consider(planned.settings, factor, result, spent);
     }
     return spent;
   }
@@ -153,7 +153,7 @@ class Search {
   }
 
   bool run_uniform() {
-    RunPlan planned{.policy = policy_, .stop = {}};
+    RunPlan planned{.settings = settings_, .stop = {}};
     planned.stop = {.passes = most_uniform_passes,
                     .spp = budget_.spp,
                     .seconds = budget_.seconds,
@@ -168,7 +168,7 @@ class Search {
     }
     best_.runs = 1;
     for (const Measurement& each : *measured) {
-      consider(policy_, 1.0, each, spending(budget_, each));
+      consider(settings_, 1.0, each, spending(budget_, each));
     }
     return true;
   }
@@ -176,17 +176,17 @@ class Search {
   /// In one line, why the best is not good enough.
   std::string reason() const {
     const std::string nearest = nearest_text();
-    if (estimator(policy_.estimator).channels == 0) {
+    if (estimator(settings_.estimator).channels == 0) {
       return fmt::format("whole passes come no nearer than {}", nearest);
     }
     if (bracketed_) {
       return fmt::format("no threshold comes nearer than {}", nearest);
     }
     const bool too_much = best_spending_ > 1.0;
-    const std::string_view policy = allocation(policy_.allocation.kind).id;
+    const std::string_view settings = allocation(settings_.allocation.kind).id;
     return budget_.error ? fmt::format("{} passes of {} with {} threshold give {}", budget_.passes,
-                                       policy, too_much ? "the highest" : "the lowest", nearest)
-                         : fmt::format("{} passes of {} take at {} {}", budget_.passes, policy,
+                                       settings, too_much ? "the highest" : "the lowest", nearest)
+                         : fmt::format("{} passes of {} take at {} {}", budget_.passes, settings,
                                        too_much ? "least" : "most", nearest);
   }
 
@@ -204,7 +204,7 @@ class Search {
   }
 
   Experiment& experiment_;
-  const SamplingPolicy policy_;
+  const LaneSettings settings_;
   const CommonBudget budget_;
   const std::stop_token stop_;
   Calibration best_;
@@ -230,17 +230,17 @@ double CommonBudget::of(const Measurement& run) const {
   return spp ? run.mean_spp : seconds ? run.record.seconds : run.values.front();
 }
 
-SamplingPolicy scaled_thresholds(SamplingPolicy policy, double factor) {
-  for (float& threshold : policy.thresholds) {
+LaneSettings scaled_thresholds(LaneSettings settings, double factor) {
+  for (float& threshold : settings.thresholds) {
     threshold = float(double(threshold) * factor);
   }
-  return policy;
+  return settings;
 }
 
-std::optional<Calibration> calibrate(Experiment& experiment, const SamplingPolicy& policy,
+std::optional<Calibration> calibrate(Experiment& experiment, const LaneSettings& settings,
                                      const CommonBudget& budget, std::stop_token stop) {
   check(budget, experiment);
-  Search search(experiment, policy, budget, std::move(stop));
+  Search search(experiment, settings, budget, std::move(stop));
   if (!search.run()) {
     return std::nullopt;
   }

@@ -26,7 +26,7 @@ struct CommonBudget {
 
 /// The threshold that meets a budget.
 struct Calibration {
-  SamplingPolicy policy;  ///< with all thresholds of its estimator scaled by `factor`
+  LaneSettings settings;  ///< with all thresholds of its estimator scaled by `factor`
   double factor = 1.0;    ///< against the thresholds that it began with
   Measurement result;     ///< after the last pass; values: the error, if that is the budget
   bool met = false;       ///< within a hundredth
@@ -36,21 +36,21 @@ struct Calibration {
   CappedPixels capped;  ///< of the run that `result` is of
 };
 
-/// Finds, by bisection over replays, the factor on all thresholds of a policy with which a run of
+/// Finds, by bisection over replays, the factor on all thresholds of a lane with which a run of
 /// so many passes meets the budget as nearly as it can. The higher the thresholds, the fewer
 /// samples and the more error: the search relies on it. Where the budget lies beyond what any
 /// threshold gives, the nearest end is returned.
 ///
-/// A run depends on nothing but samples and policy, so that the same budget gives the same
+/// A run depends on nothing but samples and settings, so that the same budget gives the same
 /// thresholds, except that measured seconds are never twice the same. An estimator without a
 /// threshold, uniform, has no factor: it runs as many passes as meet the budget.
 ///
 /// Nothing if `stop` ended it. Throws std::invalid_argument for a budget that is not exactly one,
 /// or for an error without a reference in the experiment.
-std::optional<Calibration> calibrate(Experiment& experiment, const SamplingPolicy& policy,
+std::optional<Calibration> calibrate(Experiment& experiment, const LaneSettings& settings,
                                      const CommonBudget& budget, std::stop_token stop = {});
 
-/// The policy with all its thresholds scaled.
-SamplingPolicy scaled_thresholds(SamplingPolicy policy, double factor);
+/// The settings with all their thresholds scaled.
+LaneSettings scaled_thresholds(LaneSettings settings, double factor);
 
 }  // namespace quartet

@@ -144,7 +144,7 @@ class ClaimLab {
 
   bool run_criterion(EstimatorId id, std::uint32_t passes, const std::vector<std::size_t>& pixels,
                      ClaimRun& run) {
-    lab_.set_policy(0, default_policy(id));
+    lab_.set_settings(0, default_settings(id));
     FireflyWatch watch(lab_, source_, *world_.reference, regions_);
     std::vector<std::uint16_t> wanted = lane().plan().wanted;
     const bool ended = run_lab(lab_, stop_, [&] {
@@ -165,7 +165,7 @@ class ClaimLab {
 
   /// What uniform sampling reaches in each run's time, between the passes around it.
   bool run_uniform(ClaimSeed& seed) {
-    lab_.set_policy(0, uniform_);
+    lab_.set_settings(0, uniform_);
     double longest = 0.0;
     for (const ClaimRun& run : seed.runs) {
       longest = std::max(longest, run.seconds);
@@ -213,7 +213,7 @@ class ClaimLab {
   const std::vector<RegionId>& regions_;
   const std::stop_token stop_;
   const SampleSource source_;
-  const SamplingPolicy uniform_ = default_policy(EstimatorId::uniform);
+  const LaneSettings uniform_ = default_settings(EstimatorId::uniform);
   Lab lab_;
 };
 

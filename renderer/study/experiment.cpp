@@ -15,9 +15,9 @@ namespace {
 /// A lab of one lane, which no run has used yet: it costs nothing before its first pass.
 Lab idle_lab(SampleSource source, int width, int height, LabOptions options,
              const std::shared_ptr<const RadianceImage>& reference) {
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  const LaneSettings settings = default_settings(EstimatorId::uniform);
   options.reference = reference;
-  return {std::move(source), width, height, std::span(&policy, 1), options};
+  return {std::move(source), width, height, std::span(&settings, 1), options};
 }
 
 bool is_measured(MeasureAt at, std::uint32_t pass) {
@@ -56,7 +56,7 @@ std::optional<std::vector<Measurement>> Experiment::run(
   if (!reference_ && (!plan.metrics.empty() || plan.stop.error)) {
     throw std::invalid_argument("an error can only be measured against a reference");
   }
-  lab_.set_policy(0, plan.policy);
+  lab_.set_settings(0, plan.settings);
   std::vector<Measurement> measurements;
   const bool ended = run_lab(lab_, stop, [&] {
     const double done = plan.stop.progress(lane(), reference_.get());

@@ -27,7 +27,7 @@ enum class MeasureAt { end, powers_of_two, every_pass };
 
 /// How one lane is run.
 struct RunPlan {
-  SamplingPolicy policy;
+  LaneSettings settings;
   StopConditions stop;                 ///< the run ends after the first pass where one holds
   std::vector<MetricId> metrics = {};  ///< none: only what a run costs is measured
   MeasureAt measure_at = MeasureAt::end;

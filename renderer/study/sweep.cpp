@@ -69,7 +69,7 @@ class SweepProgress {
 };
 
 RunPlan uniform_plan(const SweepPlan& plan) {
-  RunPlan run{.policy = default_policy(EstimatorId::uniform),
+  RunPlan run{.settings = default_settings(EstimatorId::uniform),
               .stop = plan.stop,
               .metrics = plan.metrics,
               .measure_at = MeasureAt::powers_of_two};
@@ -77,7 +77,7 @@ RunPlan uniform_plan(const SweepPlan& plan) {
     run.stop.passes.reset();
   }
   if (run.stop.spp) {
-    run.policy.max_spp = std::max(run.policy.max_spp, std::uint32_t(std::ceil(*run.stop.spp)));
+    run.settings.max_spp = std::max(run.settings.max_spp, std::uint32_t(std::ceil(*run.stop.spp)));
   }
   return run;
 }
@@ -101,13 +101,13 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
   result.uniform.push_back(std::move(*uniform));
   keep_most(result.rejected, rejected_of(experiment.lane(), seed));
   const std::vector<float> oracle = oracle_weights(experiment.first_samples(oracle_spp));
-  for (const SamplingPolicy& policy : plan.policies) {
+  for (const LaneSettings& settings : plan.lane_settings) {
     for (const double factor : sweep_factors(plan)) {
       progress.begin_run(index++, fmt::format("seed {}, {} x {:.3g}", seed,
-                                              estimator(policy.estimator).id, factor));
-      SweepRun run{.policy = scaled_thresholds(policy, factor), .factor = factor, .seed = seed};
+                                              estimator(settings.estimator).id, factor));
+      SweepRun run{.settings = scaled_thresholds(settings, factor), .factor = factor, .seed = seed};
       const auto measured = experiment.run(
-          {.policy = run.policy, .stop = plan.stop, .metrics = plan.metrics}, stop, tell);
+          {.settings = run.settings, .stop = plan.stop, .metrics = plan.metrics}, stop, tell);
       if (!measured) {
         return false;
       }
@@ -208,7 +208,7 @@ std::optional<SweepResult> run_sweep(
     const std::function<void(double, std::string_view)>& progress) {
   SweepResult result;
   result.first_seed = world.first_seed;
-  const std::size_t runs = 1 + plan.policies.size() * sweep_factors(plan).size();
+  const std::size_t runs = 1 + plan.lane_settings.size() * sweep_factors(plan).size();
   SweepProgress told(std::size_t(plan.seeds), runs, progress);
   for (std::uint32_t k = 0; k < plan.seeds; ++k) {
     told.begin_seed(k);
@@ -239,7 +239,7 @@ std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan&
     for (std::size_t k = 0; k < result.uniform.size(); ++k) {
       seeds.push_back(result.runs[k * a_seed + i]);
     }
-    SweepPoint point{.policy = seeds.front().policy, .factor = seeds.front().factor};
+    SweepPoint point{.settings = seeds.front().settings, .factor = seeds.front().factor};
     point.seconds = median_of(seeds, [](const SweepRun& run) { return run.end.record.seconds; });
     point.mean_spp = median_of(seeds, [](const SweepRun& run) { return run.end.mean_spp; });
     point.mean_rays = median_of(seeds, [](const SweepRun& run) { return run.end.mean_rays; });
@@ -265,7 +265,7 @@ std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t me
         seeds.push_back(run[i]);
       }
     }
-    SweepPoint point{.policy = default_policy(EstimatorId::uniform)};
+    SweepPoint point{.settings = default_settings(EstimatorId::uniform)};
     point.seconds = median_of(seeds, [](const Measurement& m) { return m.record.seconds; });
     point.mean_spp = median_of(seeds, [](const Measurement& m) { return m.mean_spp; });
     point.mean_rays = median_of(seeds, [](const Measurement& m) { return m.mean_rays; });

@@ -38,9 +38,10 @@ Experiment make_experiment(const SampleWorld& world, std::uint64_t seed);
 SampleWorld sample_world(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings,
                          const LabOptions& lab, std::shared_ptr<const RadianceImage> reference);
 
-/// Every policy at a geometric range of thresholds, with several seeds.
+/// Every lane at a geometric range of thresholds, with several seeds.
 struct SweepPlan {
-  std::vector<SamplingPolicy> policies;  ///< with their default thresholds; of a sweep's estimators
+  /// With their default thresholds; of a sweep's estimators.
+  std::vector<LaneSettings> lane_settings;
   int thresholds = 8;
   double low = 0.1;  ///< factor on the default thresholds
   double high = 10.0;
@@ -54,7 +55,7 @@ struct SweepPlan {
 
 /// One run of a sweep.
 struct SweepRun {
-  SamplingPolicy policy;
+  LaneSettings settings;
   double factor = 1.0;  ///< on the default thresholds; 1 where there are none
   std::uint64_t seed = 0;
   Measurement end = {};
@@ -63,7 +64,7 @@ struct SweepRun {
 };
 
 struct SweepResult {
-  std::vector<SweepRun> runs;  ///< seed by seed, policy by policy, by rising thresholds
+  std::vector<SweepRun> runs;  ///< seed by seed, lane by lane, by rising thresholds
   /// The baseline, one run a seed, at powers of two of its passes and at its end.
   std::vector<std::vector<Measurement>> uniform;
   std::uint64_t first_seed = 0;
@@ -82,9 +83,9 @@ std::optional<SweepResult> run_sweep(const SampleWorld& world, const SweepPlan& 
                                      std::stop_token stop,
                                      const std::function<void(double, std::string_view)>& progress);
 
-/// One point of a curve: the runs of one policy and factor with all seeds.
+/// One point of a curve: the runs of one lane and factor with all seeds.
 struct SweepPoint {
-  SamplingPolicy policy;
+  LaneSettings settings;
   double factor = 1.0;
   double seconds = 0.0;    ///< median
   double mean_spp = 0.0;   ///< median
@@ -97,7 +98,7 @@ struct SweepPoint {
   double against_uniform = 0.0;
 };
 
-/// Points of all policies, in the order of the plan, by rising thresholds.
+/// Points of all lanes, in the order of the plan, by rising thresholds.
 std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan& plan,
                                      std::size_t metric);
 /// Those of the baseline, by rising passes.

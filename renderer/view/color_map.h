@@ -58,7 +58,7 @@ std::vector<Tick> scale_ticks(const ColorScale& scale, int wanted);
 /// one step of 255 at most.
 void apply(std::span<const float> numbers, const ColorScale& scale, std::span<Rgba8> display);
 
-/// Samples per pixel as colours, exactly. Pixels with `cap` samples or more, the maximum a policy
+/// Samples per pixel as colours, exactly. Pixels with `cap` samples or more, the maximum a lane
 /// allows, get kCapColor.
 void heatmap(std::span<const std::uint32_t> counts, const ColorScale& scale,
              std::optional<std::uint32_t> cap, std::span<Rgba8> display);

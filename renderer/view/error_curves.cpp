@@ -92,7 +92,7 @@ Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     add(line_of(curve_of(lane, snapshot, what.effort), what.colors[i % what.colors.size()],
-                std::string(estimator(lane.policy.estimator).label), int(i)));
+                std::string(estimator(lane.settings.estimator).label), int(i)));
   }
   if (chart.lines.empty()) {
     chart.x = log_axis(0.1, 10.0, std::string(effort_row(what.effort).label), 5);

@@ -67,7 +67,7 @@ std::string error_note(const LaneSnapshot& lane, std::size_t pixels) {
   if (infinite > 0) {
     return fmt::format("{:.0f} % too few samples", std::ceil(percent(infinite, pixels)));
   }
-  const std::uint32_t minimum = minimum_samples(lane.policy);
+  const std::uint32_t minimum = minimum_samples(lane.settings);
   if (minimum > 0 && std::ranges::min(lane.taken) < minimum) {
     return fmt::format("none done below {} spp", minimum);
   }
@@ -125,7 +125,7 @@ Chart sample_chart(const Snapshot& snapshot, std::size_t lane, const ColorScale&
     if (histogram.pixels[bin] > 0) {
       const double begin = double(bin) * double(histogram.width);
       const double end = begin + double(histogram.width);
-      const bool capped = end > double(shown.policy.max_spp);
+      const bool capped = end > double(shown.settings.max_spp);
       const Rgba8 color =
           capped ? kCapColor
                  : sample(scale.color_map, scale_position(scale, 0.5 * (begin + end - 1.0)));
@@ -141,7 +141,7 @@ Chart sample_chart(const Snapshot& snapshot, std::size_t lane, const ColorScale&
 Chart error_chart(const Snapshot& snapshot, std::size_t lane, const Thresholds& thresholds,
                   Rgba8 accent, std::optional<DecadeRange> decades) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
-  const Estimator& row = estimator(shown.policy.estimator);
+  const Estimator& row = estimator(shown.settings.estimator);
   const std::size_t pixels = snapshot.pixels();
   Chart chart;
   chart.title = "pixels by error";

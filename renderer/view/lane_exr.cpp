@@ -30,7 +30,7 @@ ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
     const auto first = planes.begin() + std::ptrdiff_t(c * pixels);
     return std::vector<float>(first, first + std::ptrdiff_t(pixels));
   };
-  const Estimator& row = estimator(from.policy.estimator);
+  const Estimator& row = estimator(from.settings.estimator);
   for (std::size_t c = 0; c < from.error.size() / pixels; ++c) {
     exr.add(row.channels == 1 ? fmt::format("Error.{}", row.id)
                               : fmt::format("Error.{}.{}", row.id, channel_names[c]),

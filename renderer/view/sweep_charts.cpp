@@ -90,10 +90,10 @@ void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
   chart.lines.push_back(std::move(line));
 }
 
-void add_policies(const SweepSummary& summary, Cost cost, Chart& chart) {
+void add_lanes(const SweepSummary& summary, Cost cost, Chart& chart) {
   std::size_t color = 0;
   for (std::size_t begin = 0; begin < summary.points.size();) {
-    const EstimatorId id = summary.points[begin].policy.estimator;
+    const EstimatorId id = summary.points[begin].settings.estimator;
     std::size_t end = begin;
     Line line{.label = std::string(estimator(id).label),
               .color = paper_color(color++),
@@ -104,8 +104,8 @@ void add_policies(const SweepSummary& summary, Cost cost, Chart& chart) {
               .lower = {},
               .upper = {}};
     band.color.a = 45;
-    // By rising thresholds: a policy comes again only after its highest.
-    for (; end < summary.points.size() && summary.points[end].policy.estimator == id &&
+    // By rising thresholds: a lane comes again only after its highest.
+    for (; end < summary.points.size() && summary.points[end].settings.estimator == id &&
            (end == begin || summary.points[end].factor > summary.points[end - 1].factor);
          ++end) {
       const SweepPoint& point = summary.points[end];
@@ -148,7 +148,7 @@ Chart sweep_chart(const SweepSummary& summary, Cost cost, std::string title, std
     chart.lines.push_back(std::move(front));
   }
   add_baseline(summary, cost, chart);
-  add_policies(summary, cost, chart);
+  add_lanes(summary, cost, chart);
   if (summary.noise_floor > 0.0) {
     chart.levels.push_back(
         {fmt::format("noise floor of the reference, {}", format_number(summary.noise_floor)),
@@ -196,7 +196,7 @@ Chart calibration_chart(const SweepResult& result) {
     if (run.factor != 1.0 || run.seed != result.first_seed) {
       continue;
     }
-    Line line{.label = std::string(estimator(run.policy.estimator).label),
+    Line line{.label = std::string(estimator(run.settings.estimator).label),
               .color = paper_color(color++),
               .points = {},
               .dots = true};

@@ -149,10 +149,10 @@ TEST(Estimators, TooFewSamplesAreNotJudged) {
         EXPECT_EQ(std::ranges::count(errors, std::numeric_limits<float>::infinity()), 6);
       }
       Plan plan;
-      SamplingPolicy policy = default_policy(row.key);
-      policy.allocation.kind = AllocationId::batch;
+      LaneSettings settings = default_settings(row.key);
+      settings.allocation.kind = AllocationId::batch;
       const std::vector<std::uint32_t> taken(6, std::uint32_t(count));
-      plan_next(policy, {3, 2, errors, taken, 1}, plan);
+      plan_next(settings, {3, 2, errors, taken, 1}, plan);
       EXPECT_EQ(plan.not_done, looks_at_neighbours(row) ? 0u : 6u);
     }
   });

@@ -12,9 +12,9 @@ constexpr int budget_width = 48;
 constexpr int budget_height = 27;
 constexpr std::size_t budget_pixels = std::size_t(budget_width) * budget_height;
 
-Lab noisy_lab(const std::vector<SamplingPolicy>& policies, LabOptions options) {
+Lab noisy_lab(const std::vector<LaneSettings>& lane_settings, LabOptions options) {
   options.pilot_source = test::noisy_source(budget_width + 1);
-  return {test::noisy_source(budget_width), budget_width, budget_height, policies, options};
+  return {test::noisy_source(budget_width), budget_width, budget_height, lane_settings, options};
 }
 
 void run_to(Lab& lab, std::uint32_t passes) {
@@ -24,14 +24,14 @@ void run_to(Lab& lab, std::uint32_t passes) {
 }
 
 /// Takes one sample a pass and is never done; all that it is ahead it takes in its first pass.
-SamplingPolicy one_a_pass(std::uint16_t first, SampleUse use) {
-  SamplingPolicy policy = default_policy(EstimatorId::contrast);
-  policy.allocation.kind = AllocationId::batch;
-  policy.allocation.first = first;
-  policy.allocation.batch = 1;
-  policy.thresholds = {-1.0f, -1.0f, -1.0f};
-  policy.use = use;
-  return policy;
+LaneSettings one_a_pass(std::uint16_t first, SampleUse use) {
+  LaneSettings settings = default_settings(EstimatorId::contrast);
+  settings.allocation.kind = AllocationId::batch;
+  settings.allocation.first = first;
+  settings.allocation.batch = 1;
+  settings.thresholds = {-1.0f, -1.0f, -1.0f};
+  settings.use = use;
+  return settings;
 }
 
 TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
@@ -40,16 +40,16 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
   for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
     SCOPED_TRACE(sample_use(use).id);
     // The slowest is in the middle.
-    const std::vector<SamplingPolicy> policies{one_a_pass(ahead, use), one_a_pass(1, use),
-                                               one_a_pass(ahead / 2, use)};
+    const std::vector<LaneSettings> lane_settings{one_a_pass(ahead, use), one_a_pass(1, use),
+                                                  one_a_pass(ahead / 2, use)};
     LabOptions options;
     options.statistics.variance = true;  // no means, which would be forgotten first
-    Lab ample = noisy_lab(policies, options);
+    Lab ample = noisy_lab(lane_settings, options);
     run_to(ample, 20);
     // Room for somewhat more than what lies between the lanes, far less than for all.
     options.memory = ample.stored_bytes();
     run_to(ample, passes);
-    Lab tight = noisy_lab(policies, options);
+    Lab tight = noisy_lab(lane_settings, options);
     run_to(tight, passes);
     const std::uint64_t most = budget_pixels * (ahead + passes - 1);
     EXPECT_EQ(ample.store().traced(), most);
@@ -60,7 +60,7 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
       EXPECT_TRUE(tight.pilot_store()->partial());
       EXPECT_EQ(tight.pilot_store()->traced(), most);
     }
-    for (std::size_t i = 0; i < policies.size(); ++i) {
+    for (std::size_t i = 0; i < lane_settings.size(); ++i) {
       EXPECT_TRUE(std::ranges::equal(ample.lanes()[i].taken(), tight.lanes()[i].taken()));
       EXPECT_EQ(ample.lanes()[i].film().image(), tight.lanes()[i].film().image());
     }

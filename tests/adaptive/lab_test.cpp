@@ -15,27 +15,27 @@ constexpr int height = 27;
 constexpr std::size_t pixels = std::size_t(width) * height;
 
 /// Every estimator with the policy that comes with it.
-std::vector<SamplingPolicy> all_policies() {
-  std::vector<SamplingPolicy> policies;
+std::vector<LaneSettings> all_settings() {
+  std::vector<LaneSettings> lane_settings;
   for (const Estimator& row : estimators()) {
-    policies.push_back(default_policy(row.key));
+    lane_settings.push_back(default_settings(row.key));
   }
-  return policies;
+  return lane_settings;
 }
 
 /// Every estimator under every allocation in every mode.
-std::vector<SamplingPolicy> all_combinations() {
-  std::vector<SamplingPolicy> policies;
-  for (SamplingPolicy policy : all_policies()) {
+std::vector<LaneSettings> all_combinations() {
+  std::vector<LaneSettings> lane_settings;
+  for (LaneSettings settings : all_settings()) {
     for (const AllocationRow& allocation : allocations()) {
       for (const SampleUseRow& use : sample_uses()) {
-        policy.allocation.kind = allocation.key;
-        policy.use = use.key;
-        policies.push_back(policy);
+        settings.allocation.kind = allocation.key;
+        settings.use = use.key;
+        lane_settings.push_back(settings);
       }
     }
   }
-  return policies;
+  return lane_settings;
 }
 
 SampleSource cornell_checker(std::uint64_t seed = 0) {
@@ -49,11 +49,11 @@ SampleSource cornell_checker(std::uint64_t seed = 0) {
 }
 
 /// With all that any estimator and any mode asks for.
-Lab make_lab(std::span<const SamplingPolicy> policies, LabOptions options = {},
+Lab make_lab(std::span<const LaneSettings> lane_settings, LabOptions options = {},
              SampleSource source = cornell_checker()) {
   options.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
   options.pilot_source = cornell_checker(1);
-  return Lab(std::move(source), width, height, policies, options);
+  return Lab(std::move(source), width, height, lane_settings, options);
 }
 
 LabOptions options_with_threads(int threads) {
@@ -97,7 +97,7 @@ std::uint64_t sum(std::span<const std::uint32_t> values) {
 }
 
 TEST(Lab, EachSampleIsTracedOnce) {
-  Lab lab = make_lab(all_policies());
+  Lab lab = make_lab(all_settings());
   run(lab, 8);
   std::uint64_t greediest = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -118,11 +118,11 @@ TEST(Lab, EachSampleIsTracedOnce) {
 }
 
 TEST(Lab, ALaneIsTheSameAloneAndInCompany) {
-  const auto policies = all_policies();
-  Lab together = make_lab(policies);
+  const auto lane_settings = all_settings();
+  Lab together = make_lab(lane_settings);
   run(together, 6);
-  for (std::size_t i = 0; i < policies.size(); ++i) {
-    Lab alone = make_lab(std::span(policies).subspan(i, 1));
+  for (std::size_t i = 0; i < lane_settings.size(); ++i) {
+    Lab alone = make_lab(std::span(lane_settings).subspan(i, 1));
     run(alone, 6);
     expect_same_state(alone.lanes()[0], together.lanes()[i]);
   }
@@ -130,65 +130,65 @@ TEST(Lab, ALaneIsTheSameAloneAndInCompany) {
 
 TEST(Lab, AReplayIsTheSameAsAFreshRun) {
   // Not all: a greedier lane would have traced what a lower threshold wants.
-  std::vector<SamplingPolicy> policies;
+  std::vector<LaneSettings> lane_settings;
   for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl, EstimatorId::rigau_kl}) {
-    policies.push_back(default_policy(id));
+    lane_settings.push_back(default_settings(id));
   }
-  policies[2].allocation.kind = AllocationId::vote;
-  Lab lab = make_lab(policies);
+  lane_settings[2].allocation.kind = AllocationId::vote;
+  Lab lab = make_lab(lane_settings);
   run(lab, 6);
   const std::uint64_t traced = lab.store().traced();
   // There and back: what was done before leaves no trace.
-  const SamplingPolicy original = policies[1];
-  policies[1].thresholds[0] *= 3.0f;
-  lab.set_policy(1, policies[1]);
+  const LaneSettings original = lane_settings[1];
+  lane_settings[1].thresholds[0] *= 3.0f;
+  lab.set_settings(1, lane_settings[1]);
   run(lab, 6);
   EXPECT_EQ(lab.store().traced(), traced) << "a higher threshold needs nothing new";
-  Lab fresh = make_lab(policies);
+  Lab fresh = make_lab(lane_settings);
   run(fresh, 6);
   expect_same_state(lab.lanes()[1], fresh.lanes()[1]);
 
-  policies[1].thresholds[0] = original.thresholds[0] / 4.0f;
-  lab.set_policy(1, policies[1]);
+  lane_settings[1].thresholds[0] = original.thresholds[0] / 4.0f;
+  lab.set_settings(1, lane_settings[1]);
   run(lab, 6);
   EXPECT_GT(lab.store().traced(), traced);
-  lab.set_policy(1, original);
+  lab.set_settings(1, original);
   run(lab, 6);
-  policies[1] = original;
-  Lab again = make_lab(policies);
+  lane_settings[1] = original;
+  Lab again = make_lab(lane_settings);
   run(again, 6);
-  for (std::size_t i = 0; i < policies.size(); ++i) {
+  for (std::size_t i = 0; i < lane_settings.size(); ++i) {
     expect_same_state(lab.lanes()[i], again.lanes()[i]);
   }
 }
 
 TEST(LabThreads, OneTwoAndEightThreadsGiveTheSame) {
-  const auto policies = all_combinations();
-  Lab one = make_lab(policies, options_with_threads(1));
+  const auto lane_settings = all_combinations();
+  Lab one = make_lab(lane_settings, options_with_threads(1));
   run(one, 6);
   for (const int threads : {2, 8}) {
-    Lab many = make_lab(policies, options_with_threads(threads));
+    Lab many = make_lab(lane_settings, options_with_threads(threads));
     run(many, 6);
-    for (std::size_t i = 0; i < policies.size(); ++i) {
+    for (std::size_t i = 0; i < lane_settings.size(); ++i) {
       expect_same_state(one.lanes()[i], many.lanes()[i]);
     }
   }
 }
 
 TEST(Lab, AShortMemoryChangesNothingButWork) {
-  auto policies = all_policies();
-  policies.back().use = policies.front().use = SampleUse::unbiased;
-  Lab ample = make_lab(policies);
+  auto lane_settings = all_settings();
+  lane_settings.back().use = lane_settings.front().use = SampleUse::unbiased;
+  Lab ample = make_lab(lane_settings);
   run(ample, 12);
-  Lab tight = make_lab(policies, options_with_memory(1));
+  Lab tight = make_lab(lane_settings, options_with_memory(1));
   run(tight, 12);
   EXPECT_TRUE(tight.store().partial());
   EXPECT_FALSE(ample.store().partial());
   EXPECT_LT(tight.store().stored(), ample.store().stored());
-  for (std::size_t i = 0; i < policies.size(); ++i) {
+  for (std::size_t i = 0; i < lane_settings.size(); ++i) {
     expect_same_state(ample.lanes()[i], tight.lanes()[i]);
   }
-  tight.set_policy(2, policies[2]);
+  tight.set_settings(2, lane_settings[2]);
   run(tight, 12);
   expect_same_state(ample.lanes()[2], tight.lanes()[2]);
 }
@@ -209,19 +209,19 @@ SampleSource noise(bool bad) {
 }
 
 TEST(Lab, MeansLookedUpAreThoseAddedUp) {
-  const auto policies = all_policies();
+  const auto lane_settings = all_settings();
   // A lane that wants the variance must add.
   LabOptions adds;
   adds.statistics.variance = true;
   for (const bool bad : {false, true}) {
-    Lab looking_up = make_lab(policies, {}, noise(bad));
-    Lab adding = make_lab(policies, adds, noise(bad));
+    Lab looking_up = make_lab(lane_settings, {}, noise(bad));
+    Lab adding = make_lab(lane_settings, adds, noise(bad));
     run(looking_up, 9);
     run(adding, 9);
     EXPECT_TRUE(looking_up.store().has_means());
-    for (std::size_t i = 0; i < policies.size(); ++i) {
+    for (std::size_t i = 0; i < lane_settings.size(); ++i) {
       EXPECT_EQ(looking_up.lanes()[i].film().has_sums(),
-                estimator(policies[i].estimator).needs.any());
+                estimator(lane_settings[i].estimator).needs.any());
       EXPECT_TRUE(adding.lanes()[i].film().has_sums());
       expect_same_state(looking_up.lanes()[i], adding.lanes()[i]);
       EXPECT_TRUE(std::ranges::equal(looking_up.lanes()[i].film().rejected(),
@@ -232,20 +232,20 @@ TEST(Lab, MeansLookedUpAreThoseAddedUp) {
 }
 
 TEST(Lab, ChangesFromLookingUpToAddingInTheMiddle) {
-  const auto policies = all_policies();
+  const auto lane_settings = all_settings();
   for (const bool bad : {false, true}) {
-    Lab ample = make_lab(policies, {}, noise(bad));
+    Lab ample = make_lab(lane_settings, {}, noise(bad));
     run(ample, 5);
     LabOptions options;
     options.memory = ample.store().bytes();
-    Lab tight = make_lab(policies, options, noise(bad));
+    Lab tight = make_lab(lane_settings, options, noise(bad));
     run(tight, 5);
     EXPECT_TRUE(tight.store().has_means());
     run(tight, 12);
     EXPECT_FALSE(tight.store().has_means());
     run(ample, 12);
     EXPECT_TRUE(ample.store().has_means());
-    for (std::size_t i = 0; i < policies.size(); ++i) {
+    for (std::size_t i = 0; i < lane_settings.size(); ++i) {
       EXPECT_TRUE(tight.lanes()[i].film().has_sums());
       expect_same_state(ample.lanes()[i], tight.lanes()[i]);
       EXPECT_TRUE(std::ranges::equal(ample.lanes()[i].film().rejected(),
@@ -255,18 +255,18 @@ TEST(Lab, ChangesFromLookingUpToAddingInTheMiddle) {
 }
 
 TEST(Lab, StoppedWorkIsKeptAndTakenUpAgain) {
-  const auto policies = all_policies();
+  const auto lane_settings = all_settings();
   std::stop_source stop;
   stop.request_stop();
-  Lab lab = make_lab(policies);
+  Lab lab = make_lab(lane_settings);
   EXPECT_TRUE(lab.run_pass(stop.get_token())) << "the first samples are never given up";
   EXPECT_EQ(lab.pass(), 1u);
   EXPECT_FALSE(lab.run_pass(stop.get_token()));
   EXPECT_EQ(lab.pass(), 1u);
   run(lab, 4);
-  Lab fresh = make_lab(policies);
+  Lab fresh = make_lab(lane_settings);
   run(fresh, 4);
-  for (std::size_t i = 0; i < policies.size(); ++i) {
+  for (std::size_t i = 0; i < lane_settings.size(); ++i) {
     expect_same_state(lab.lanes()[i], fresh.lanes()[i]);
   }
 }
@@ -277,8 +277,8 @@ TEST(Lab, BadSamplesAreRejectedAndDoNotHoldUpTheLane) {
       radiance[i] = glm::vec3(x == 0 && (first + i) % 2 == 1 ? std::nanf("") : 1.0f);
     }
   };
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
-  Lab lab(source, 2, 1, std::span(&policy, 1));
+  const LaneSettings settings = default_settings(EstimatorId::uniform);
+  Lab lab(source, 2, 1, std::span(&settings, 1));
   run(lab, 10);
   const Lane& lane = lab.lanes()[0];
   EXPECT_EQ(lane.taken()[0], 10u);
@@ -289,7 +289,7 @@ TEST(Lab, BadSamplesAreRejectedAndDoNotHoldUpTheLane) {
 }
 
 TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
-  Lab lab = make_lab(all_policies());
+  Lab lab = make_lab(all_settings());
   run(lab, 6);
   for (const Lane& lane : lab.lanes()) {
     for (std::size_t i = 1; i < lane.history().size(); ++i) {
@@ -301,9 +301,9 @@ TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
 
 TEST(Lab, OneLaneAloneIsChargedForAllThatWasTraced) {
   for (const SampleUseRow& use : sample_uses()) {
-    SamplingPolicy policy = default_policy(EstimatorId::kl);
-    policy.use = use.key;
-    Lab lab = make_lab(std::span(&policy, 1));
+    LaneSettings settings = default_settings(EstimatorId::kl);
+    settings.use = use.key;
+    Lab lab = make_lab(std::span(&settings, 1));
     run(lab, 5);
     const double traced =
         lab.store().seconds() + (lab.pilot_store() ? lab.pilot_store()->seconds() : 0.0);
@@ -324,7 +324,7 @@ TEST(Lab, RaysAreThoseOfTheSamplesThatALaneTook) {
     run(lab, 5);
     EXPECT_EQ(lab.partial(), memory == std::size_t(1) << 18);
     for (const Lane& lane : lab.lanes()) {
-      if (lane.policy().use != SampleUse::reuse) {
+      if (lane.settings().use != SampleUse::reuse) {
         EXPECT_GT(lane.history().back().rays, lane.history().back().samples);
         continue;
       }
@@ -337,36 +337,36 @@ TEST(Lab, RaysAreThoseOfTheSamplesThatALaneTook) {
         row.trace_jobs(*scene, settings, camera, {&job, 1});
         rays += std::uint64_t(job.work);
       }
-      EXPECT_EQ(lane.history().back().rays, rays) << estimator(lane.policy().estimator).id;
+      EXPECT_EQ(lane.history().back().rays, rays) << estimator(lane.settings().estimator).id;
     }
   }
 }
 
 TEST(Lab, AllLanesAreChargedByOneTableAfterAThresholdWentAwayAndCameBack) {
   // Lanes in pairs, of which one is dragged; the others rest meanwhile.
-  std::vector<SamplingPolicy> policies;
+  std::vector<LaneSettings> lane_settings;
   for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl}) {
     for (const SampleUseRow& use : sample_uses()) {
-      SamplingPolicy policy = default_policy(id);
-      policy.use = use.key;
-      policies.insert(policies.end(), {policy, policy});
+      LaneSettings settings = default_settings(id);
+      settings.use = use.key;
+      lane_settings.insert(lane_settings.end(), {settings, settings});
     }
   }
-  Lab lab = make_lab(policies);
+  Lab lab = make_lab(lane_settings);
   run(lab, 6);
   const std::uint64_t before = lab.store().traced();
   for (const float factor : {0.01f, 1.0f}) {
-    for (std::size_t i = 0; i < policies.size(); i += 2) {
-      SamplingPolicy dragged = policies[i];
+    for (std::size_t i = 0; i < lane_settings.size(); i += 2) {
+      LaneSettings dragged = lane_settings[i];
       for (float& threshold : dragged.thresholds) {
         threshold *= factor;
       }
-      lab.set_policy(i, dragged);
+      lab.set_settings(i, dragged);
     }
     run(lab, 6);
   }
   EXPECT_GT(lab.store().traced(), before) << "what samples take was measured anew";
-  for (std::size_t i = 0; i < policies.size(); i += 2) {
+  for (std::size_t i = 0; i < lane_settings.size(); i += 2) {
     const auto dragged = lab.lanes()[i].history();
     const auto rested = lab.lanes()[i + 1].history();
     ASSERT_EQ(dragged.size(), rested.size());
@@ -380,29 +380,29 @@ TEST(Lab, AllLanesAreChargedByOneTableAfterAThresholdWentAwayAndCameBack) {
 }
 
 TEST(Lab, TheOracleNeedsAReferenceOfThePicturesSize) {
-  const SamplingPolicy oracle = default_policy(EstimatorId::oracle);
+  const LaneSettings oracle = default_settings(EstimatorId::oracle);
   EXPECT_THROW(Lab(cornell_checker(), width, height, std::span(&oracle, 1)), std::invalid_argument);
   LabOptions options;
   options.reference = std::make_shared<const RadianceImage>(width, height + 1);
   EXPECT_THROW(Lab(cornell_checker(), width, height, std::span(&oracle, 1), options),
                std::invalid_argument);
-  const SamplingPolicy plain = default_policy(EstimatorId::kl);
+  const LaneSettings plain = default_settings(EstimatorId::kl);
   Lab lab(cornell_checker(), width, height, std::span(&plain, 1));
-  EXPECT_THROW(lab.set_policy(0, oracle), std::invalid_argument);
-  EXPECT_EQ(lab.lanes()[0].policy(), plain);
+  EXPECT_THROW(lab.set_settings(0, oracle), std::invalid_argument);
+  EXPECT_EQ(lab.lanes()[0].settings(), plain);
 }
 
 TEST(Lab, TheOracleKnowsWhereThePictureIsWrong) {
   // A reference that is the picture itself, but for one pixel.
-  const SamplingPolicy policies[] = {default_policy(EstimatorId::uniform),
-                                     default_policy(EstimatorId::oracle)};
-  Lab uniform = make_lab(std::span(policies).first(1));
+  const LaneSettings lane_settings[] = {default_settings(EstimatorId::uniform),
+                                        default_settings(EstimatorId::oracle)};
+  Lab uniform = make_lab(std::span(lane_settings).first(1));
   run(uniform, 8);
   RadianceImage truth = uniform.lanes()[0].film().image();
   truth.at(5, 7) += glm::vec3(1.0f);
   LabOptions options;
   options.reference = std::make_shared<const RadianceImage>(truth);
-  Lab lab(cornell_checker(), width, height, std::span(policies).subspan(1), options);
+  Lab lab(cornell_checker(), width, height, std::span(lane_settings).subspan(1), options);
   run(lab, 1);
   const Lane& lane = lab.lanes()[0];
   ASSERT_EQ(lane.taken()[0], 8u);
@@ -413,11 +413,11 @@ TEST(Lab, TheOracleKnowsWhereThePictureIsWrong) {
 
 TEST(Lab, AnUnbiasedLaneIsPlannedByItsPilotAlone) {
   // The counts are those of a lane that reuses the pilot's samples; the picture is another.
-  SamplingPolicy policy = default_policy(EstimatorId::kl);
-  Lab pilot(cornell_checker(1), width, height, std::span(&policy, 1));
+  LaneSettings settings = default_settings(EstimatorId::kl);
+  Lab pilot(cornell_checker(1), width, height, std::span(&settings, 1));
   run(pilot, 6);
-  policy.use = SampleUse::unbiased;
-  Lab lab = make_lab(std::span(&policy, 1));
+  settings.use = SampleUse::unbiased;
+  Lab lab = make_lab(std::span(&settings, 1));
   run(lab, 6);
   const Lane& lane = lab.lanes()[0];
   EXPECT_TRUE(std::ranges::equal(lane.taken(), pilot.lanes()[0].taken()));
@@ -427,9 +427,9 @@ TEST(Lab, AnUnbiasedLaneIsPlannedByItsPilotAlone) {
 }
 
 TEST(Lab, AnotherSeedGivesOtherSamples) {
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
-  Lab a(cornell_checker(0), width, height, std::span(&policy, 1));
-  Lab b(cornell_checker(1), width, height, std::span(&policy, 1));
+  const LaneSettings settings = default_settings(EstimatorId::uniform);
+  Lab a(cornell_checker(0), width, height, std::span(&settings, 1));
+  Lab b(cornell_checker(1), width, height, std::span(&settings, 1));
   run(a, 1);
   run(b, 1);
   EXPECT_NE(a.lanes()[0].film().image(), b.lanes()[0].film().image());

@@ -53,20 +53,20 @@ double tracing_of(const SampleStore& store, std::span<const std::uint32_t> count
   return store.costs().rates().of(work);
 }
 
-SamplingPolicy with_use(EstimatorId id, SampleUse use) {
-  SamplingPolicy policy = default_policy(id);
-  policy.use = use;
-  return policy;
+LaneSettings with_use(EstimatorId id, SampleUse use) {
+  LaneSettings settings = default_settings(id);
+  settings.use = use;
+  return settings;
 }
 
 /// Takes 256 samples of each pixel a pass, with next to nothing to estimate and plan.
-SamplingPolicy reading_policy() {
-  SamplingPolicy policy = default_policy(EstimatorId::contrast);
-  policy.allocation.kind = AllocationId::batch;
-  policy.allocation.first = 256;
-  policy.allocation.batch = 256;
-  policy.thresholds = {-1.0f, -1.0f, -1.0f};
-  return policy;
+LaneSettings reading_settings() {
+  LaneSettings settings = default_settings(EstimatorId::contrast);
+  settings.allocation.kind = AllocationId::batch;
+  settings.allocation.first = 256;
+  settings.allocation.batch = 256;
+  settings.thresholds = {-1.0f, -1.0f, -1.0f};
+  return settings;
 }
 
 TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
@@ -108,7 +108,7 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
 }
 
 TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
-  const std::vector<SamplingPolicy> policies{
+  const std::vector<LaneSettings> lane_settings{
       with_use(EstimatorId::uniform, SampleUse::reuse),
       with_use(EstimatorId::kl, SampleUse::reuse),
       with_use(EstimatorId::kl, SampleUse::unbiased),
@@ -117,12 +117,12 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
   LabOptions options;
   options.pilot_source = dear_source(15);
   const Stopwatch watch;
-  Lab lab(dear_source(5), timed_side, timed_side, policies, options);
+  Lab lab(dear_source(5), timed_side, timed_side, lane_settings, options);
   for (int pass = 0; pass < 4; ++pass) {
     ASSERT_TRUE(lab.run_pass());
   }
   double own = 0.0;
-  for (std::size_t lane = 0; lane < policies.size(); ++lane) {
+  for (std::size_t lane = 0; lane < lane_settings.size(); ++lane) {
     EXPECT_GT(own_of(lab, lane), -time_rounding) << lane;
     own += own_of(lab, lane);
   }
@@ -132,8 +132,8 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
   for (const SampleStore* store : {&lab.store(), lab.pilot_store()}) {
     std::vector<std::uint32_t> most(timed_pixels, 0);
     for (std::size_t i = 0; i < timed_pixels; ++i) {
-      for (std::size_t lane = 0; lane < policies.size(); ++lane) {
-        const bool takes = store == &lab.store() || policies[lane].use == SampleUse::unbiased;
+      for (std::size_t lane = 0; lane < lane_settings.size(); ++lane) {
+        const bool takes = store == &lab.store() || lane_settings[lane].use == SampleUse::unbiased;
         most[i] = takes ? std::max(most[i], lab.lanes()[lane].taken()[i]) : most[i];
       }
     }
@@ -143,18 +143,18 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
 
 TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
   constexpr std::size_t lanes = 8;
-  const std::vector<SamplingPolicy> policies(lanes, reading_policy());
+  const std::vector<LaneSettings> lane_settings(lanes, reading_settings());
   LabOptions options;
   options.threads = 1;
   options.statistics.variance = true;
-  Lab lab(dear_source(0), timed_side, timed_side, policies, options);
+  Lab lab(dear_source(0), timed_side, timed_side, lane_settings, options);
   ASSERT_TRUE(lab.run_pass());
   const double tracing = lab.store().seconds();
   double best = 0.0;
   // Whatever else the machine does only adds to what passes: the best of many tries counts.
   for (int attempt = 0; attempt < 50 && best < 0.5; ++attempt) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      lab.set_policy(lane, policies[lane]);
+      lab.set_settings(lane, lane_settings[lane]);
     }
     const Stopwatch watch;
     ASSERT_TRUE(lab.run_pass());
@@ -172,20 +172,20 @@ TEST(LaneTime, AReplayIsChargedToTheLanesThatMadeItOnce) {
 }
 
 TEST(LaneTime, ALaneThatRestsIsChargedNothing) {
-  const std::vector<SamplingPolicy> policies(3, default_policy(EstimatorId::kl));
-  Lab lab(dear_source(1), timed_side, timed_side, policies, {});
+  const std::vector<LaneSettings> lane_settings(3, default_settings(EstimatorId::kl));
+  Lab lab(dear_source(1), timed_side, timed_side, lane_settings, {});
   ASSERT_TRUE(lab.run_pass());
   ASSERT_TRUE(lab.run_pass());
   const double first = own_of(lab, 0);
   const double last = own_of(lab, 2);
-  lab.set_policy(1, policies[1]);
+  lab.set_settings(1, lane_settings[1]);
   ASSERT_TRUE(lab.run_pass());
   EXPECT_EQ(lab.lanes()[1].pass(), 1u);
   EXPECT_EQ(own_of(lab, 0), first);
   EXPECT_EQ(own_of(lab, 2), last);
   // What it had been charged before it began again is forgotten.
   const Stopwatch watch;
-  lab.set_policy(1, policies[1]);
+  lab.set_settings(1, lane_settings[1]);
   ASSERT_TRUE(lab.run_pass());
   EXPECT_LT(own_of(lab, 1), watch.seconds() + time_rounding);
 }

@@ -40,16 +40,16 @@ SampleSource steady_noise(std::uint32_t seed) {
 
 TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandPasses) {
   constexpr std::size_t mib = std::size_t(1) << 20;
-  SamplingPolicy reused = default_policy(EstimatorId::uniform);
-  SamplingPolicy unbiased = default_policy(EstimatorId::kl);
+  LaneSettings reused = default_settings(EstimatorId::uniform);
+  LaneSettings unbiased = default_settings(EstimatorId::kl);
   unbiased.use = SampleUse::unbiased;
   reused.max_spp = unbiased.max_spp = 1u << 31;
   LabOptions options;
   options.threads = 1;
   options.memory = 4 * mib;
   options.pilot_source = steady_noise(1000);
-  const SamplingPolicy policies[] = {reused, unbiased};
-  Lab lab(steady_noise(0), 4, 4, policies, options);
+  const LaneSettings lane_settings[] = {reused, unbiased};
+  Lab lab(steady_noise(0), 4, 4, lane_settings, options);
   std::size_t settled = 0;
   for (std::uint32_t pass = 1; pass <= 100'000; ++pass) {
     ASSERT_TRUE(lab.run_pass());

@@ -21,27 +21,30 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 /// Errors and samples of a picture, all near to where they decide something.
 struct Decided {
-  SamplingPolicy policy;
+  LaneSettings settings;
   int width;
   int height;
   std::vector<float> error;
   std::vector<std::uint32_t> taken;
 
   Decided(EstimatorId id, int w, int h, unsigned seed)
-      : policy(default_policy(id)), width(w), height(h), taken(std::size_t(w) * std::size_t(h)) {
+      : settings(default_settings(id)),
+        width(w),
+        height(h),
+        taken(std::size_t(w) * std::size_t(h)) {
     std::mt19937 random(seed);
-    for (float& threshold : policy.thresholds) {
+    for (float& threshold : settings.thresholds) {
       threshold = random() % 4 == 0 ? 0.0f : threshold;
     }
-    const std::uint32_t minimum = minimum_samples(policy);
-    policy.max_spp = minimum + 1 + random() % 3;
+    const std::uint32_t minimum = minimum_samples(settings);
+    settings.max_spp = minimum + 1 + random() % 3;
     for (std::uint32_t& samples : taken) {
       samples = minimum + std::uint32_t(random() % 6);
       samples -= std::min(samples, 2u);
     }
     error.resize(std::size_t(estimator(id).channels) * taken.size());
     for (std::size_t i = 0; i < error.size(); ++i) {
-      const float threshold = policy.thresholds[i / taken.size()];
+      const float threshold = settings.thresholds[i / taken.size()];
       const std::array<float, 8> choices{0.0f,
                                          threshold,
                                          std::nextafter(threshold, 0.0f),
@@ -55,21 +58,21 @@ struct Decided {
     }
   }
 
-  PixelCriterion criterion() const { return {policy, error, taken}; }
+  PixelCriterion criterion() const { return {settings, error, taken}; }
 
   bool done(std::size_t pixel) const {
-    const int channels = estimator(policy.estimator).channels;
+    const int channels = estimator(settings.estimator).channels;
     bool above = false;
     for (std::size_t c = 0; c < std::size_t(channels); ++c) {
-      above = above || error[c * taken.size() + pixel] > policy.thresholds[c];
+      above = above || error[c * taken.size() + pixel] > settings.thresholds[c];
     }
-    return channels > 0 && !above && taken[pixel] >= minimum_samples(policy);
+    return channels > 0 && !above && taken[pixel] >= minimum_samples(settings);
   }
 
   PixelState state(std::size_t pixel) const {
-    return done(pixel)                      ? PixelState::done
-           : taken[pixel] >= policy.max_spp ? PixelState::at_maximum
-                                            : PixelState::refining;
+    return done(pixel)                        ? PixelState::done
+           : taken[pixel] >= settings.max_spp ? PixelState::at_maximum
+                                              : PixelState::refining;
   }
 
   /// Of the pixels around one, those that are not done.
@@ -87,13 +90,13 @@ struct Decided {
   std::uint32_t wanted(AllocationId kind, int x, int y) const {
     const auto pixel = std::size_t(y * width + x);
     const bool refining = !done(pixel);
-    const Estimator& row = estimator(policy.estimator);
+    const Estimator& row = estimator(settings.estimator);
     const std::uint32_t own = row.look_every > 0 ? row.look_every : 8;
     std::uint32_t samples = 1;
     if (row.channels > 0) {
       switch (kind) {
         case AllocationId::vote:
-          samples = 1 + std::uint32_t(policy.allocation.multiplier * float(votes(x, y)));
+          samples = 1 + std::uint32_t(settings.allocation.multiplier * float(votes(x, y)));
           break;
         case AllocationId::two_level:
         case AllocationId::batch:
@@ -104,7 +107,7 @@ struct Decided {
           break;
       }
     }
-    return std::min(samples, policy.max_spp - std::min(policy.max_spp, taken[pixel]));
+    return std::min(samples, settings.max_spp - std::min(settings.max_spp, taken[pixel]));
   }
 };
 
@@ -126,7 +129,7 @@ TEST(PixelState, OfRandomErrorsIsWhatOnePixelAtATimeGives) {
           ASSERT_EQ(marks[i - 13], picture.done(i) ? 0 : 1) << i;
         }
         ++met[std::size_t(states[i])];
-        done_at_maximum += picture.done(i) && picture.taken[i] >= picture.policy.max_spp ? 1 : 0;
+        done_at_maximum += picture.done(i) && picture.taken[i] >= picture.settings.max_spp ? 1 : 0;
       }
     }
   }
@@ -141,11 +144,11 @@ TEST(PixelState, PlansFollowIt) {
         SCOPED_TRACE(testing::Message() << row.id << ", " << allocation.id << ", seed " << seed);
         // More rows than are handed to a thread at a time.
         Decided picture(row.key, 9, 70, seed);
-        picture.policy.allocation.kind = allocation.key;
-        picture.policy.max_spp += seed % 2 == 0 ? 20 : 0;
+        picture.settings.allocation.kind = allocation.key;
+        picture.settings.max_spp += seed % 2 == 0 ? 20 : 0;
         Plan plan;
-        plan_next(picture.policy, {picture.width, picture.height, picture.error, picture.taken, 1},
-                  plan);
+        plan_next(picture.settings,
+                  {picture.width, picture.height, picture.error, picture.taken, 1}, plan);
         std::uint64_t total = 0;
         for (int y = 0; y < picture.height; ++y) {
           for (int x = 0; x < picture.width; ++x) {
@@ -165,29 +168,29 @@ TEST(PixelState, PlansFollowIt) {
 }
 
 TEST(PixelState, BeforeTheFirstPassNothingIsDone) {
-  SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  LaneSettings settings = default_settings(EstimatorId::contrast);
   const std::vector<std::uint32_t> taken(6, 0);
-  EXPECT_EQ(pixel_states({policy, {}, taken}), std::vector<PixelState>(6, PixelState::refining));
-  EXPECT_TRUE(largest_scaled_errors({policy, {}, taken}).empty());
-  EXPECT_EQ(largest_scaled_error({policy, {}, taken}, 3), 0.0f);
+  EXPECT_EQ(pixel_states({settings, {}, taken}), std::vector<PixelState>(6, PixelState::refining));
+  EXPECT_TRUE(largest_scaled_errors({settings, {}, taken}).empty());
+  EXPECT_EQ(largest_scaled_error({settings, {}, taken}, 3), 0.0f);
 }
 
 TEST(PixelState, OfALaneIsThatOfItsSnapshot) {
-  std::array<SamplingPolicy, 3> policies{default_policy(EstimatorId::contrast),
-                                         default_policy(EstimatorId::cycles),
-                                         default_policy(EstimatorId::uniform)};
-  for (SamplingPolicy& policy : policies) {
-    policy.allocation.kind = AllocationId::vote;
+  std::array<LaneSettings, 3> lane_settings{default_settings(EstimatorId::contrast),
+                                            default_settings(EstimatorId::cycles),
+                                            default_settings(EstimatorId::uniform)};
+  for (LaneSettings& settings : lane_settings) {
+    settings.allocation.kind = AllocationId::vote;
   }
-  policies[0].max_spp = 8;
+  lane_settings[0].max_spp = 8;
   constexpr int side = 16;
-  Lab lab(test::noisy_source(side), side, side, policies);
+  Lab lab(test::noisy_source(side), side, side, lane_settings);
   for (int pass = 0; pass < 3; ++pass) {
     lab.run_pass();
   }
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
-  for (std::size_t lane = 0; lane < policies.size(); ++lane) {
+  for (std::size_t lane = 0; lane < lane_settings.size(); ++lane) {
     SCOPED_TRACE(lane);
     const std::vector<PixelState> states = pixel_states(lab.lanes()[lane]);
     EXPECT_EQ(pixel_states(snapshot.lanes[lane]), states);
@@ -253,7 +256,7 @@ TEST(ScaledError, OfAPixelIsTheLargestOfItsChannels) {
         bool above = false;
         for (std::size_t c = 0; c < picture.error.size() / pixels; ++c) {
           const float error = picture.error[c * pixels + i];
-          const float threshold = picture.policy.thresholds[c];
+          const float threshold = picture.settings.thresholds[c];
           above = above || error > threshold;
           if (!std::isnan(error)) {
             expected = std::max(expected, threshold > 0.0f ? error / threshold

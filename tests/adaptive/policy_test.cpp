@@ -23,24 +23,24 @@ struct Picture {
         error(std::size_t(w) * std::size_t(h) * std::size_t(channels), 0.0f),
         taken(std::size_t(w) * std::size_t(h), 1) {}
 
-  Plan plan(const SamplingPolicy& policy, std::uint32_t pass = 1) const {
+  Plan plan(const LaneSettings& settings, std::uint32_t pass = 1) const {
     Plan plan;
-    plan_next(policy, {width, height, error, taken, pass}, plan);
+    plan_next(settings, {width, height, error, taken, pass}, plan);
     return plan;
   }
 };
 
-SamplingPolicy kl_policy(float multiplier) {
-  SamplingPolicy policy = default_policy(EstimatorId::kl);
-  policy.allocation.multiplier = multiplier;
-  return policy;
+LaneSettings kl_settings(float multiplier) {
+  LaneSettings settings = default_settings(EstimatorId::kl);
+  settings.allocation.multiplier = multiplier;
+  return settings;
 }
 
 TEST(Vote, FirstPassIsOneSampleEverywhere) {
   Picture picture(5, 4);
   std::fill(picture.taken.begin(), picture.taken.end(), 0u);
   picture.error.clear();
-  const Plan plan = picture.plan(kl_policy(0.5f), 0);
+  const Plan plan = picture.plan(kl_settings(0.5f), 0);
   EXPECT_EQ(plan.wanted, std::vector<std::uint16_t>(20, 1));
   EXPECT_EQ(plan.total, 20u);
   EXPECT_EQ(plan.not_done, 20u);
@@ -49,7 +49,7 @@ TEST(Vote, FirstPassIsOneSampleEverywhere) {
 TEST(Vote, APixelVotesForItsNeighbourhood) {
   Picture picture(5, 5);
   picture.error[12] = 1.0f;
-  const Plan plan = picture.plan(kl_policy(1.0f));
+  const Plan plan = picture.plan(kl_settings(1.0f));
   EXPECT_EQ(plan.not_done, 1u);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
@@ -69,37 +69,37 @@ TEST(Vote, AFireflyInTheReport) {
       picture.error[std::size_t(5) * std::size_t(y) + std::size_t(x)] = 1.0f;
     }
   }
-  EXPECT_EQ(picture.plan(kl_policy(1.0f)).wanted[12], 1 + 9);
-  EXPECT_EQ(picture.plan(kl_policy(0.5f)).wanted[12], 1 + 4);
+  EXPECT_EQ(picture.plan(kl_settings(1.0f)).wanted[12], 1 + 9);
+  EXPECT_EQ(picture.plan(kl_settings(0.5f)).wanted[12], 1 + 4);
 }
 
 TEST(Vote, BordersHaveFewerVoters) {
   Picture picture(3, 3);
   std::fill(picture.error.begin(), picture.error.end(), 1.0f);
-  const Plan plan = picture.plan(kl_policy(1.0f));
+  const Plan plan = picture.plan(kl_settings(1.0f));
   EXPECT_EQ(plan.wanted, (std::vector<std::uint16_t>{5, 7, 5, 7, 10, 7, 5, 7, 5}));
   Picture single(1, 1);
   single.error[0] = 1.0f;
-  EXPECT_EQ(single.plan(kl_policy(1.0f)).wanted[0], 2);
+  EXPECT_EQ(single.plan(kl_settings(1.0f)).wanted[0], 2);
 }
 
 TEST(Vote, ErrorAtTheThresholdIsDone) {
   Picture picture(1, 1);
-  const SamplingPolicy policy = kl_policy(1.0f);
-  picture.error[0] = policy.thresholds[0];
-  EXPECT_EQ(picture.plan(policy).not_done, 0u);
-  picture.error[0] = std::nextafter(policy.thresholds[0], 1.0f);
-  EXPECT_EQ(picture.plan(policy).not_done, 1u);
+  const LaneSettings settings = kl_settings(1.0f);
+  picture.error[0] = settings.thresholds[0];
+  EXPECT_EQ(picture.plan(settings).not_done, 0u);
+  picture.error[0] = std::nextafter(settings.thresholds[0], 1.0f);
+  EXPECT_EQ(picture.plan(settings).not_done, 1u);
 }
 
 TEST(Vote, EachChannelOfContrastHasItsThreshold) {
-  const SamplingPolicy policy = default_policy(EstimatorId::contrast);
+  const LaneSettings settings = default_settings(EstimatorId::contrast);
   for (std::size_t c = 0; c < 3; ++c) {
     Picture picture(1, 1, 3);
-    picture.error[c] = policy.thresholds[c];
-    EXPECT_EQ(picture.plan(policy).not_done, 0u) << c;
-    picture.error[c] = policy.thresholds[c] + 0.01f;
-    EXPECT_EQ(picture.plan(policy).not_done, 1u) << c;
+    picture.error[c] = settings.thresholds[c];
+    EXPECT_EQ(picture.plan(settings).not_done, 0u) << c;
+    picture.error[c] = settings.thresholds[c] + 0.01f;
+    EXPECT_EQ(picture.plan(settings).not_done, 1u) << c;
   }
 }
 
@@ -108,8 +108,8 @@ TEST(Vote, StochasticRoundingKeepsTheMean) {
   // 000 pixels of nine planned passes the share lies within 4 standard deviations (false alarm
   // 6e-5).
   Picture picture(100, 100);
-  SamplingPolicy policy = kl_policy(0.5f);
-  policy.allocation.stochastic_rounding = true;
+  LaneSettings settings = kl_settings(0.5f);
+  settings.allocation.stochastic_rounding = true;
   for (std::size_t y = 1; y < 100; y += 3) {
     for (std::size_t x = 1; x < 100; x += 3) {
       picture.error[100 * y + x] = 1.0f;
@@ -118,74 +118,74 @@ TEST(Vote, StochasticRoundingKeepsTheMean) {
   std::uint64_t extra = 0;
   std::uint64_t voted = 0;
   for (std::uint32_t pass = 1; pass <= 9; ++pass) {
-    extra += picture.plan(policy, pass).total - 10'000;
+    extra += picture.plan(settings, pass).total - 10'000;
     voted += 9801;  // 99 x 99
   }
   const double share = double(extra) / double(voted);
   EXPECT_NEAR(share, 0.5, 4.0 * 0.5 / std::sqrt(double(voted)));
-  EXPECT_NE(picture.plan(policy, 1).wanted, picture.plan(policy, 2).wanted);
-  EXPECT_EQ(picture.plan(policy, 1).wanted, picture.plan(policy, 1).wanted);
+  EXPECT_NE(picture.plan(settings, 1).wanted, picture.plan(settings, 2).wanted);
+  EXPECT_EQ(picture.plan(settings, 1).wanted, picture.plan(settings, 1).wanted);
 }
 
 TEST(Vote, NoPixelPassesTheMaximum) {
   Picture picture(2, 1);
   picture.error = {1.0f, 1.0f};
-  SamplingPolicy policy = kl_policy(2.0f);
-  policy.max_spp = 7;
+  LaneSettings settings = kl_settings(2.0f);
+  settings.max_spp = 7;
   picture.taken = {4, 7};
-  EXPECT_EQ(picture.plan(policy).wanted, (std::vector<std::uint16_t>{3, 0}));
-  EXPECT_EQ(picture.plan(policy).total, 3u);
+  EXPECT_EQ(picture.plan(settings).wanted, (std::vector<std::uint16_t>{3, 0}));
+  EXPECT_EQ(picture.plan(settings).total, 3u);
 }
 
 TEST(Vote, UniformNeverAsksForMore) {
   Picture picture(4, 4);
   picture.error.clear();
-  EXPECT_EQ(picture.plan(default_policy(EstimatorId::uniform), 3).wanted,
+  EXPECT_EQ(picture.plan(default_settings(EstimatorId::uniform), 3).wanted,
             std::vector<std::uint16_t>(16, 1));
 }
 
-SamplingPolicy kl_policy(AllocationId kind) {
-  SamplingPolicy policy = default_policy(EstimatorId::kl);
-  policy.allocation.kind = kind;
-  return policy;
+LaneSettings kl_settings(AllocationId kind) {
+  LaneSettings settings = default_settings(EstimatorId::kl);
+  settings.allocation.kind = kind;
+  return settings;
 }
 
 using Counts = std::vector<std::uint16_t>;
 
 TEST(TwoLevel, LooksOnce) {
-  const SamplingPolicy policy = kl_policy(AllocationId::two_level);
+  const LaneSettings settings = kl_settings(AllocationId::two_level);
   Picture picture(3, 1);
   picture.error = {1.0f, 0.0f, 1.0f};
-  EXPECT_EQ(picture.plan(policy, 0).wanted, (Counts{1, 1, 1}));
-  const Plan second = picture.plan(policy, 1);
+  EXPECT_EQ(picture.plan(settings, 0).wanted, (Counts{1, 1, 1}));
+  const Plan second = picture.plan(settings, 1);
   EXPECT_EQ(second.wanted, (Counts{8, 0, 8}));
   EXPECT_EQ(second.not_done, 2u);
-  EXPECT_EQ(picture.plan(policy, 2).total, 0u);
-  EXPECT_EQ(picture.plan(policy, 2).not_done, 2u) << "though they get nothing";
+  EXPECT_EQ(picture.plan(settings, 2).total, 0u);
+  EXPECT_EQ(picture.plan(settings, 2).not_done, 2u) << "though they get nothing";
 }
 
 TEST(Batch, GoesOnUntilNoErrorIsAboveTheThreshold) {
-  SamplingPolicy policy = kl_policy(AllocationId::batch);
-  policy.max_spp = 20;
+  LaneSettings settings = kl_settings(AllocationId::batch);
+  settings.max_spp = 20;
   Picture picture(3, 1);
   picture.taken = {0, 0, 0};
-  EXPECT_EQ(picture.plan(policy, 0).wanted, (Counts{8, 8, 8}));
+  EXPECT_EQ(picture.plan(settings, 0).wanted, (Counts{8, 8, 8}));
   picture.taken = {8, 8, 8};
   picture.error = {1.0f, 0.0f, 1.0f};
-  EXPECT_EQ(picture.plan(policy, 1).wanted, (Counts{8, 0, 8}));
+  EXPECT_EQ(picture.plan(settings, 1).wanted, (Counts{8, 0, 8}));
   picture.taken = {16, 8, 16};
   picture.error = {1.0f, 0.0f, 0.0f};
-  EXPECT_EQ(picture.plan(policy, 2).wanted, (Counts{4, 0, 0})) << "up to the maximum";
+  EXPECT_EQ(picture.plan(settings, 2).wanted, (Counts{4, 0, 0})) << "up to the maximum";
   picture.error = {0.0f, 0.0f, 0.0f};
-  EXPECT_EQ(picture.plan(policy, 3).total, 0u);
+  EXPECT_EQ(picture.plan(settings, 3).total, 0u);
 }
 
 TEST(Converge, GivesTheNeighboursOfAPixelThatIsNotDoneSamplesToo) {
-  const SamplingPolicy policy = kl_policy(AllocationId::converge);
+  const LaneSettings settings = kl_settings(AllocationId::converge);
   Picture picture(5, 5);
   picture.error[0] = 1.0f;
-  EXPECT_EQ(picture.plan(policy, 0).wanted, Counts(25, 16));
-  const Plan plan = picture.plan(policy, 1);
+  EXPECT_EQ(picture.plan(settings, 0).wanted, Counts(25, 16));
+  const Plan plan = picture.plan(settings, 1);
   EXPECT_EQ(plan.not_done, 1u);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 5; ++x) {
@@ -197,29 +197,29 @@ TEST(Converge, GivesTheNeighboursOfAPixelThatIsNotDoneSamplesToo) {
 
 TEST(Tables, WithoutAnErrorAllPixelsAreAlikeUnderEachAllocation) {
   for (const AllocationRow& row : allocations()) {
-    SamplingPolicy policy = default_policy(EstimatorId::uniform);
-    policy.allocation.kind = row.key;
+    LaneSettings settings = default_settings(EstimatorId::uniform);
+    settings.allocation.kind = row.key;
     Picture picture(4, 4);
     picture.error.clear();
-    EXPECT_EQ(picture.plan(policy, 3).wanted, Counts(16, 1)) << row.id;
+    EXPECT_EQ(picture.plan(settings, 3).wanted, Counts(16, 1)) << row.id;
   }
 }
 
 TEST(Tables, AnAllocationReadsTheParametersThatItsRowSays) {
   const Allocation unusual{.first = 5, .batch = 5, .multiplier = 0.3f, .stochastic_rounding = true};
   for (const AllocationRow& row : allocations()) {
-    SamplingPolicy policy = default_policy(EstimatorId::kl);
-    policy.allocation.kind = row.key;
+    LaneSettings settings = default_settings(EstimatorId::kl);
+    settings.allocation.kind = row.key;
     Picture picture(9, 9);
     std::fill(picture.error.begin(), picture.error.end(), 1.0f);
     const auto plans = [&](const Allocation& allocation) {
-      SamplingPolicy other = policy;
+      LaneSettings other = settings;
       other.allocation = allocation;
       return std::pair(picture.plan(other, 0).wanted, picture.plan(other, 1).wanted);
     };
-    const auto usual = plans(policy.allocation);
+    const auto usual = plans(settings.allocation);
     const auto changes = [&](auto set) {
-      Allocation other = policy.allocation;
+      Allocation other = settings.allocation;
       set(other);
       return plans(other) != usual;
     };
@@ -228,8 +228,8 @@ TEST(Tables, AnAllocationReadsTheParametersThatItsRowSays) {
       SCOPED_TRACE(parameter.id);
       EXPECT_EQ(changes([&](Allocation& other) { copy_parameter(parameter, unusual, other); }),
                 reads(row, parameter.key));
-      EXPECT_EQ(reads(policy, parameter.key), reads(row, parameter.key));
-      SamplingPolicy uniform = policy;
+      EXPECT_EQ(reads(settings, parameter.key), reads(row, parameter.key));
+      LaneSettings uniform = settings;
       uniform.estimator = EstimatorId::uniform;
       EXPECT_FALSE(reads(uniform, parameter.key));
     }

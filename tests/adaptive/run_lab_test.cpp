@@ -19,10 +19,10 @@ Lab grey_lab(const std::function<void()>& before_samples = [] {}) {
     before_samples();
     std::ranges::fill(radiance, glm::vec3(0.5f));
   };
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  const LaneSettings settings = default_settings(EstimatorId::uniform);
   LabOptions options;
   options.threads = 1;
-  return {source, 2, 2, std::span(&policy, 1), options};
+  return {source, 2, 2, std::span(&settings, 1), options};
 }
 
 TEST(RunLab, AsksAfterEachPassWhetherThereShallBeAnother) {

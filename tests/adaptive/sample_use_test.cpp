@@ -34,15 +34,15 @@ SampleSource bits_of_pixel(int width, int shift) {
 }
 
 /// A pilot of `first` samples, and up to `most` in all where they differ.
-SamplingPolicy pilot_policy(std::uint16_t first, std::uint16_t most, SampleUse use) {
-  SamplingPolicy policy = default_policy(EstimatorId::rigau_chi2);
-  policy.allocation.kind = AllocationId::batch;
-  policy.allocation.first = first;
-  policy.allocation.batch = std::uint16_t(most - first);
-  policy.max_spp = most;
-  policy.thresholds[0] = 1e-6f;
-  policy.use = use;
-  return policy;
+LaneSettings pilot_settings(std::uint16_t first, std::uint16_t most, SampleUse use) {
+  LaneSettings settings = default_settings(EstimatorId::rigau_chi2);
+  settings.allocation.kind = AllocationId::batch;
+  settings.allocation.first = first;
+  settings.allocation.batch = std::uint16_t(most - first);
+  settings.max_spp = most;
+  settings.thresholds[0] = 1e-6f;
+  settings.use = use;
+  return settings;
 }
 
 void run_to_end(Lab& lab) {
@@ -62,8 +62,8 @@ double expected_mean(const Lane& lane, int bits) {
 
 TEST(SampleUse, PilotsKeptInTheMeanAreBiased) {
   // 4 pilots, 12 more if they differ: 2^16 outcomes.
-  const SamplingPolicy policy = pilot_policy(4, 16, SampleUse::reuse);
-  Lab lab(bits_of_pixel(256, 0), 256, 256, std::span(&policy, 1));
+  const LaneSettings settings = pilot_settings(4, 16, SampleUse::reuse);
+  Lab lab(bits_of_pixel(256, 0), 256, 256, std::span(&settings, 1));
   run_to_end(lab);
   // Kept where all are 0 or all are 1, else the pilots and 12 · p over 16.
   const double same = std::pow(1.0 - p, 4) + std::pow(p, 4);
@@ -75,14 +75,14 @@ TEST(SampleUse, PilotsKeptInTheMeanAreBiased) {
 
 TEST(SampleUse, PilotsNeverShownAreNot) {
   // 4 pilots, 4 more if they differ: 4 bits for the pilot run, 8 for what is shown.
-  const SamplingPolicy policy = pilot_policy(4, 8, SampleUse::unbiased);
+  const LaneSettings settings = pilot_settings(4, 8, SampleUse::unbiased);
   LabOptions options;
   options.pilot_source = bits_of_pixel(64, 0);
-  Lab lab(bits_of_pixel(64, 4), 64, 64, std::span(&policy, 1), options);
+  Lab lab(bits_of_pixel(64, 4), 64, 64, std::span(&settings, 1), options);
   run_to_end(lab);
   EXPECT_NEAR(expected_mean(lab.lanes()[0], 12), p, 1e-8);
   // The same with the pilots kept, so that the test could fail.
-  const SamplingPolicy biased = pilot_policy(4, 8, SampleUse::reuse);
+  const LaneSettings biased = pilot_settings(4, 8, SampleUse::reuse);
   Lab kept(bits_of_pixel(64, 4), 64, 64, std::span(&biased, 1));
   run_to_end(kept);
   EXPECT_LT(expected_mean(kept.lanes()[0], 12), 0.9 * p);
@@ -90,8 +90,8 @@ TEST(SampleUse, PilotsNeverShownAreNot) {
 
 TEST(SampleUse, TheBiasVanishesAtOneHalf) {
   // By symmetry: which is why no test uses it.
-  const SamplingPolicy policy = pilot_policy(4, 8, SampleUse::reuse);
-  Lab lab(bits_of_pixel(16, 0), 16, 16, std::span(&policy, 1));
+  const LaneSettings settings = pilot_settings(4, 8, SampleUse::reuse);
+  Lab lab(bits_of_pixel(16, 0), 16, 16, std::span(&settings, 1));
   run_to_end(lab);
   double sum = 0.0;
   for (const float mean : lab.lanes()[0].film().mean(0)) {
@@ -101,11 +101,11 @@ TEST(SampleUse, TheBiasVanishesAtOneHalf) {
 }
 
 TEST(SampleUse, ThePilotIsChargedAndNotShown) {
-  const SamplingPolicy policies[] = {pilot_policy(4, 8, SampleUse::unbiased),
-                                     pilot_policy(4, 8, SampleUse::reuse)};
+  const LaneSettings lane_settings[] = {pilot_settings(4, 8, SampleUse::unbiased),
+                                        pilot_settings(4, 8, SampleUse::reuse)};
   LabOptions options;
   options.pilot_source = bits_of_pixel(64, 0);
-  Lab lab(bits_of_pixel(64, 4), 64, 64, policies, options);
+  Lab lab(bits_of_pixel(64, 4), 64, 64, lane_settings, options);
   run_to_end(lab);
   const Lane& lane = lab.lanes()[0];
   std::uint64_t shown = 0;
@@ -130,9 +130,9 @@ TEST(SampleUse, ThePilotIsChargedAndNotShown) {
 }
 
 TEST(SampleUse, WhatAModeNeedsMustBeThere) {
-  const SamplingPolicy policy = pilot_policy(4, 8, SampleUse::unbiased);
+  const LaneSettings settings = pilot_settings(4, 8, SampleUse::unbiased);
   try {
-    Lab lab(bits_of_pixel(64, 4), 64, 64, std::span(&policy, 1));
+    Lab lab(bits_of_pixel(64, 4), 64, 64, std::span(&settings, 1));
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("unbiased"), std::string::npos) << error.what();

@@ -10,37 +10,37 @@ namespace {
 TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
   for (const Estimator& row : estimators()) {
     for (const AllocationRow& kind : allocations()) {
-      SamplingPolicy policy = default_policy(row.key);
+      LaneSettings settings = default_settings(row.key);
       for (int c = 0; c < row.channels; ++c) {
-        policy.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
+        settings.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
       }
-      policy.max_spp = 77;
-      policy.use = SampleUse::unbiased;
-      SamplingPolicy all = policy;
+      settings.max_spp = 77;
+      settings.use = SampleUse::unbiased;
+      LaneSettings all = settings;
       all.allocation = {kind.key, 4, 12, 0.1f, true};
       // What is not read is not in the word, and comes back as it is by default.
       if (row.channels > 0) {
-        policy.allocation.kind = kind.key;
+        settings.allocation.kind = kind.key;
       }
       for (const PolicyParameter& parameter : policy_parameters()) {
-        if (reads(policy, parameter.key)) {
-          copy_parameter(parameter, all.allocation, policy.allocation);
+        if (reads(settings, parameter.key)) {
+          copy_parameter(parameter, all.allocation, settings.allocation);
         }
       }
-      SamplingPolicy read = policy_of_lane(lane_text(all), {});
+      LaneSettings read = parse_lane(lane_text(all), {});
       for (int c = row.channels; c < 3; ++c) {
-        read.thresholds[std::size_t(c)] = policy.thresholds[std::size_t(c)];
+        read.thresholds[std::size_t(c)] = settings.thresholds[std::size_t(c)];
       }
-      EXPECT_EQ(read, policy) << lane_text(all);
+      EXPECT_EQ(read, settings) << lane_text(all);
     }
   }
 }
 
 TEST(LaneOption, ALaneAsItComesIsOneWordOfItsThresholds) {
   for (const Estimator& row : estimators()) {
-    const SamplingPolicy policy = default_policy(row.key);
-    EXPECT_EQ(policy_of_lane(std::string(row.id), {}), policy);
-    EXPECT_EQ(lane_text(policy).find("policy="), std::string::npos);
+    const LaneSettings settings = default_settings(row.key);
+    EXPECT_EQ(parse_lane(std::string(row.id), {}), settings);
+    EXPECT_EQ(lane_text(settings).find("policy="), std::string::npos);
   }
 }
 
@@ -48,10 +48,9 @@ TEST(LaneOption, SaysWhatIsWrong) {
   for (const char* text : {"kl:", "kl:x", "kl:0", "kl:-1", "kl:nan", "kl:1,2", "contrast:1,2",
                            "kl:multiplier=", "uniform:1", "kl:max-spp=many", "kl:speed=3",
                            "kl:first=70000", "kl:batch=-1"}) {
-    EXPECT_NE(error_of([&] { policy_of_lane(text, {}); }).find("--lane"), std::string::npos)
-        << text;
+    EXPECT_NE(error_of([&] { parse_lane(text, {}); }).find("--lane"), std::string::npos) << text;
   }
-  EXPECT_NE(error_of([] { policy_of_lane("best:1", {}); }).find("there are: contrast"),
+  EXPECT_NE(error_of([] { parse_lane("best:1", {}); }).find("there are: contrast"),
             std::string::npos);
 }
 

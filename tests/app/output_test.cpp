@@ -214,8 +214,8 @@ TEST(Output, CountsOfChannelsAndNamesOfFilesAreThoseThatAreWritten) {
   }
   const Result result = run(words);
   ASSERT_EQ(result.code, 0) << result.error;
-  const auto policies = policies_of(lanes, {}, {});
-  const std::vector<std::string> names = lab_file_names(policies);
+  const auto lane_settings = settings_of_lanes(lanes, {}, {});
+  const std::vector<std::string> names = lab_file_names(lane_settings);
   std::set<std::string> all(names.begin(), names.end());
   all.emplace(StagedFiles::set_list_name);
   EXPECT_EQ(names_in(folder / "out"), all);

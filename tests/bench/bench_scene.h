@@ -22,10 +22,11 @@ struct BenchScene {
     settings.height = height;
   }
 
-  Lab lab(std::span<const SamplingPolicy> policies, int threads) const {
+  Lab lab(std::span<const LaneSettings> lane_settings, int threads) const {
     LabOptions options;
     options.threads = threads;
-    return Lab(sample_source(scene, settings), settings.width, settings.height, policies, options);
+    return Lab(sample_source(scene, settings), settings.width, settings.height, lane_settings,
+               options);
   }
 };
 

@@ -52,13 +52,13 @@ void estimate(benchmark::State& state, const Estimator& row) {
 
 void plan(benchmark::State& state) {
   const Film film = noisy_film();
-  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  const LaneSettings settings = default_settings(EstimatorId::kl);
   std::vector<float> error(film.size());
-  estimator(policy.estimator).estimate({film}, error);
+  estimator(settings.estimator).estimate({film}, error);
   Plan next;
   tbb::task_arena(1).execute([&] {
     for (auto _ : state) {
-      plan_next(policy, {width, height, error, film.counts(), 1}, next);
+      plan_next(settings, {width, height, error, film.counts(), 1}, next);
       benchmark::DoNotOptimize(next.total);
     }
   });

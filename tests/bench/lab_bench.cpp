@@ -14,13 +14,13 @@ constexpr std::uint32_t passes = 15;
 constexpr int width = 480;
 constexpr int height = 270;
 
-std::vector<SamplingPolicy> four_policies() {
-  std::vector<SamplingPolicy> policies;
+std::vector<LaneSettings> four_lanes() {
+  std::vector<LaneSettings> lane_settings;
   for (const EstimatorId id :
        {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
-    policies.push_back(default_policy(id));
+    lane_settings.push_back(default_settings(id));
   }
-  return policies;
+  return lane_settings;
 }
 
 double run(Lab& lab) {
@@ -33,16 +33,16 @@ double run(Lab& lab) {
 
 void four_lanes(benchmark::State& state) {
   const BenchScene bench("cornell-checker", width, height);
-  const auto policies = four_policies();
+  const auto lane_settings = four_lanes();
   double together = 0.0;
   double separate = 0.0;
   double dearest = 0.0;
   for (auto _ : state) {
-    Lab lab = bench.lab(policies, 2);
+    Lab lab = bench.lab(lane_settings, 2);
     together += run(lab);
     double most = 0.0;
-    for (const SamplingPolicy& policy : policies) {
-      Lab alone = bench.lab(std::span(&policy, 1), 2);
+    for (const LaneSettings& settings : lane_settings) {
+      Lab alone = bench.lab(std::span(&settings, 1), 2);
       const double seconds = run(alone);
       separate += seconds;
       most = std::max(most, seconds);
@@ -57,12 +57,12 @@ BENCHMARK(four_lanes)->Unit(benchmark::kMillisecond)->Iterations(2)->UseRealTime
 /// Replays lanes of one lab out of stored samples.
 void replay(benchmark::State& state, std::size_t lanes, int threads) {
   const BenchScene bench("cornell-checker", width, height);
-  const auto policies = four_policies();
-  Lab lab = bench.lab(policies, threads);
+  const auto lane_settings = four_lanes();
+  Lab lab = bench.lab(lane_settings, threads);
   run(lab);
   for (auto _ : state) {
     for (std::size_t i = 0; i < lanes; ++i) {
-      lab.set_policy(i, policies[i]);
+      lab.set_settings(i, lane_settings[i]);
     }
     run(lab);
   }
@@ -77,12 +77,12 @@ BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
 /// Replays one lane with an estimator that wants the samples themselves, not only their means.
 void replay_samples(benchmark::State& state, EstimatorId id) {
   const BenchScene bench("cornell-checker", width, height);
-  SamplingPolicy policy = default_policy(id);
-  policy.allocation.kind = AllocationId::vote;
-  Lab lab = bench.lab(std::span(&policy, 1), 1);
+  LaneSettings settings = default_settings(id);
+  settings.allocation.kind = AllocationId::vote;
+  Lab lab = bench.lab(std::span(&settings, 1), 1);
   run(lab);
   for (auto _ : state) {
-    lab.set_policy(0, policy);
+    lab.set_settings(0, settings);
     run(lab);
   }
   const auto samples = double(lab.lanes().front().history().back().samples);

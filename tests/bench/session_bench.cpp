@@ -33,7 +33,7 @@ LabRequest lab_request(std::size_t lanes, int threads) {
   constexpr std::array ids{EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2,
                            EstimatorId::hellinger};
   for (std::size_t i = 0; i < lanes; ++i) {
-    request.lanes.policies.push_back(default_policy(ids[i]));
+    request.lanes.settings.push_back(default_settings(ids[i]));
   }
   return request;
 }
@@ -90,7 +90,7 @@ void calls_while_busy(benchmark::State& state) {
   std::shared_ptr<const Snapshot> shown;
   for (auto _ : state) {
     LabRequest next = request;
-    next.lanes.policies[1].thresholds[0] *= 1.0f + 0.001f * float(++step % 100);
+    next.lanes.settings[1].thresholds[0] *= 1.0f + 0.001f * float(++step % 100);
     timed(submits, [&] { session.submit(std::move(next)); });
     timed(latests, [&] { shown = session.latest(); });
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -113,11 +113,11 @@ void drag_to_snapshot(benchmark::State& state, std::size_t lanes, std::size_t dr
   if (measured) {
     request.lanes.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
   }
-  const std::vector<SamplingPolicy> original = request.lanes.policies;
+  const std::vector<LaneSettings> original = request.lanes.settings;
   const auto drag_to = [&](int step) {
     for (std::size_t i = 0; i < dragged; ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
-        request.lanes.policies[i].thresholds[c] =
+        request.lanes.settings[i].thresholds[c] =
             original[i].thresholds[c] * (1.0f + 0.01f * float(step));
       }
     }
@@ -181,7 +181,7 @@ Snapshot four_lanes_after(std::uint32_t passes) {
   LabOptions options;
   options.statistics.variance = true;
   Lab lab(sample_source(request.store.scene, request.store.settings), width, height,
-          request.lanes.policies, options);
+          request.lanes.settings, options);
   while (lab.pass() < passes) {
     lab.run_pass();
   }
@@ -193,7 +193,7 @@ Snapshot four_lanes_after(std::uint32_t passes) {
 void copy_of_four_lanes(benchmark::State& state) {
   const LabRequest request = lab_request(4, 2);
   Lab lab(sample_source(request.store.scene, request.store.settings), width, height,
-          request.lanes.policies);
+          request.lanes.settings);
   while (lab.pass() < 15) {
     lab.run_pass();
   }
@@ -234,7 +234,7 @@ void charts_of_a_lane(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(sample_chart(snapshot, 0, scale));
     benchmark::DoNotOptimize(
-        error_chart(snapshot, 0, snapshot.lanes[0].policy.thresholds, {255, 160, 40}));
+        error_chart(snapshot, 0, snapshot.lanes[0].settings.thresholds, {255, 160, 40}));
     benchmark::DoNotOptimize(progress_chart(snapshot, 0, {255, 160, 40}));
   }
 }

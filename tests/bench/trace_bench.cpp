@@ -125,7 +125,7 @@ BENCHMARK_CAPTURE(trace_against_rays_alone, embree_cornell,
 /// Passes through the sample store with one thread and with two, in turn.
 void two_threads_against_one(benchmark::State& state) {
   const BenchScene bench("cornell-box", size, size);
-  const SamplingPolicy uniform = default_policy(EstimatorId::uniform);
+  const LaneSettings uniform = default_settings(EstimatorId::uniform);
   double seconds[2] = {0.0, 0.0};
   std::uint64_t samples = 0;
   for (auto _ : state) {

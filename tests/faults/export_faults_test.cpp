@@ -77,13 +77,13 @@ ChartFigure figure_of(int number) {
 }
 
 Snapshot snapshot_of(int number) {
-  std::vector<SamplingPolicy> policies{default_policy(EstimatorId::kl),
-                                       default_policy(EstimatorId::uniform)};
+  std::vector<LaneSettings> lane_settings{default_settings(EstimatorId::kl),
+                                          default_settings(EstimatorId::uniform)};
   RenderSettings of = settings();
   of.seed = std::uint64_t(number);
   LabOptions options;
   options.threads = 1;
-  Lab lab(sample_source(scene(), of), of.width, of.height, policies, options);
+  Lab lab(sample_source(scene(), of), of.width, of.height, lane_settings, options);
   lab.run_pass();
   Snapshot snapshot;
   copy_lanes(lab, snapshot);

@@ -51,18 +51,18 @@ class Commands {
 };
 
 void read_lane(const std::string& word) {
-  SamplingPolicy policy;
-  if (!succeeds<std::invalid_argument>("", [&] { policy = policy_of_lane(word, {}); })) {
+  LaneSettings settings;
+  if (!succeeds<std::invalid_argument>("", [&] { settings = parse_lane(word, {}); })) {
     return;
   }
-  for (const float threshold : policy.thresholds) {
+  for (const float threshold : settings.thresholds) {
     promise(std::isfinite(threshold) && threshold >= 0.0f, "a threshold is none: " + word);
   }
-  const float multiplier = policy.allocation.multiplier;
+  const float multiplier = settings.allocation.multiplier;
   promise(std::isfinite(multiplier) && multiplier >= 0.0f, "a multiplier is none: " + word);
-  promise(policy.max_spp > 0, "no samples are allowed: " + word);
-  const std::string text = lane_text(policy);
-  promise(lane_text(policy_of_lane(text, {})) == text, "a lane's text is of another: " + word);
+  promise(settings.max_spp > 0, "no samples are allowed: " + word);
+  const std::string text = lane_text(settings);
+  promise(lane_text(parse_lane(text, {})) == text, "a lane's text is of another: " + word);
 }
 
 /// A word as each kind of value that the commands read by themselves, once the options are read.

@@ -201,8 +201,8 @@ SampleSource half_noise() {
 }
 
 TEST(EstimatorQuality, OfALaneFollowsItsParts) {
-  SamplingPolicy policy = default_policy(EstimatorId::contrast);
-  Lab lab(half_noise(), 16, 8, std::span(&policy, 1));
+  LaneSettings settings = default_settings(EstimatorId::contrast);
+  Lab lab(half_noise(), 16, 8, std::span(&settings, 1));
   for (int i = 0; i < 5; ++i) {
     lab.run_pass();
   }
@@ -213,7 +213,7 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
   for (std::size_t i = 0; i < scaled.size(); ++i) {
     float most = 0.0f;
     for (std::size_t c = 0; c < 3; ++c) {
-      most = std::max(most, lane.error()[c * 128 + i] / policy.thresholds[c]);
+      most = std::max(most, lane.error()[c * 128 + i] / settings.thresholds[c]);
     }
     EXPECT_NEAR(scaled[i], most, 1e-6);
     not_done += scaled[i] > 1.0f ? 1 : 0;
@@ -230,20 +230,20 @@ TEST(EstimatorQuality, OfALaneFollowsItsParts) {
   EXPECT_GT(quality.rank_correlation, 0.5);
   EXPECT_FALSE(quality.calibration.empty());
 
-  policy = default_policy(EstimatorId::uniform);
-  Lab plain(half_noise(), 16, 8, std::span(&policy, 1));
+  settings = default_settings(EstimatorId::uniform);
+  Lab plain(half_noise(), 16, 8, std::span(&settings, 1));
   plain.run_pass();
   EXPECT_TRUE(std::isnan(quality_of(plain.lanes()[0], truth).rank_correlation));
   EXPECT_TRUE(quality_of(plain.lanes()[0], truth).calibration.empty());
 }
 
 TEST(EstimatorQuality, APixelWithFewerSamplesThanTheMinimumIsNotDone) {
-  SamplingPolicy policy = default_policy(EstimatorId::cycles);
-  policy.thresholds[0] =
+  LaneSettings settings = default_settings(EstimatorId::cycles);
+  settings.thresholds[0] =
       100.0f;  // above every error: only the minimum keeps pixels from being done
-  policy.allocation.kind = AllocationId::vote;
-  ASSERT_EQ(minimum_samples(policy), 5u);
-  Lab lab(half_noise(), 16, 8, std::span(&policy, 1));
+  settings.allocation.kind = AllocationId::vote;
+  ASSERT_EQ(minimum_samples(settings), 5u);
+  Lab lab(half_noise(), 16, 8, std::span(&settings, 1));
   lab.run_pass();
   ASSERT_LT(std::ranges::max(lab.lanes()[0].taken()), 5u);
   const std::vector<float> even(128, 1.0f);

@@ -36,8 +36,8 @@ void alternate(int, int, std::uint32_t first, std::span<glm::vec3> radiance) {
 }
 
 std::uint32_t passes_until(const StopConditions& stop, const RadianceImage* reference,
-                           const SamplingPolicy& policy = default_policy(EstimatorId::uniform)) {
-  Lab lab(alternate, 10, 10, std::span(&policy, 1));
+                           const LaneSettings& settings = default_settings(EstimatorId::uniform)) {
+  Lab lab(alternate, 10, 10, std::span(&settings, 1));
   double last = 0.0;
   while (stop.progress(lab.lanes()[0], reference) < 1.0) {
     EXPECT_GE(stop.progress(lab.lanes()[0], reference), 0.0);
@@ -109,9 +109,9 @@ TEST(StopConditions, LanesStopAtTheFirstOne) {
 }
 
 TEST(StopConditions, AlsoWhereNoPixelWantsMore) {
-  SamplingPolicy policy = default_policy(EstimatorId::uniform);
-  policy.max_spp = 5;
-  EXPECT_EQ(passes_until(passes(1000), nullptr, policy), 5u);
+  LaneSettings settings = default_settings(EstimatorId::uniform);
+  settings.max_spp = 5;
+  EXPECT_EQ(passes_until(passes(1000), nullptr, settings), 5u);
 }
 
 /// The end of a lane that has long passed it, and where it would have stopped.
@@ -162,8 +162,8 @@ TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
   // Samples that are 0 and 2 in turn, against a truth of 1: the error is 0 after every second
   // pass and 1/pass² after the others. Of a long run, every second record is kept, then every
   // fourth.
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
-  Lab lab(alternate, 2, 2, std::span(&policy, 1));
+  const LaneSettings settings = default_settings(EstimatorId::uniform);
+  Lab lab(alternate, 2, 2, std::span(&settings, 1));
   const RadianceImage truth(2, 2, glm::vec3(1.0f));
   constexpr std::uint32_t long_run = 9001;
   while (lab.pass() < long_run) {
@@ -189,8 +189,8 @@ TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
 }
 
 TEST(StopConditions, AnErrorTargetNeedsAReferenceOfTheSameSize) {
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
-  Lab lab(alternate, 10, 10, std::span(&policy, 1));
+  const LaneSettings settings = default_settings(EstimatorId::uniform);
+  Lab lab(alternate, 10, 10, std::span(&settings, 1));
   StopConditions stop;
   stop.error = ErrorTarget{MetricId::mse, 0.5};
   const RadianceImage small(4, 4, glm::vec3(1.0f));

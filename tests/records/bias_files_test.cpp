@@ -16,7 +16,7 @@ namespace {
 
 BiasRuns counted_bias(SampleUse use, float first) {
   BiasRuns runs;
-  runs.policy = test::kl_policy(0.25f, use);
+  runs.settings = test::kl_settings(0.25f, use);
   runs.mean_spp = {first + 1, first + 2};
   runs.mean_rays = {first + 6, first + 8};
   runs.seconds = {first + 3, first + 5};

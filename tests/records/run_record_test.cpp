@@ -38,10 +38,10 @@ Snapshot numbered_snapshot() {
   snapshot.settings.camera.forward = {1, 0, 0};
 
   LaneSnapshot& contrast = snapshot.lanes[0];
-  contrast.policy.thresholds = {0.5f, 0.25f, 0.125f};
-  contrast.policy.allocation = {AllocationId::two_level, 3, 5, 0.75f, true};
-  contrast.policy.max_spp = 4321;
-  contrast.policy.use = SampleUse::unbiased;
+  contrast.settings.thresholds = {0.5f, 0.25f, 0.125f};
+  contrast.settings.allocation = {AllocationId::two_level, 3, 5, 0.75f, true};
+  contrast.settings.max_spp = 4321;
+  contrast.settings.use = SampleUse::unbiased;
   contrast.rejected = {4, 7};
   contrast.mean = {{{0.5f, 0.25f}, {0.125f, 1.0f}, {0.75f, 2.0f}}};
   contrast.history = {
@@ -61,8 +61,8 @@ Snapshot numbered_snapshot() {
        .seconds = 1.25},
   };
   LaneSnapshot& kl = snapshot.lanes[1];
-  kl.policy.thresholds = {0.0625f, 0.0f, 0.0f};
-  kl.policy.allocation.kind = AllocationId::batch;
+  kl.settings.thresholds = {0.0625f, 0.0f, 0.0f};
+  kl.settings.allocation.kind = AllocationId::batch;
   kl.mean = {{{0.25f, 0.25f}, {0.25f, 0.25f}, {0.25f, 0.25f}}};
   kl.history = {
       {.pass = 3, .samples = 15, .rays = 77, .max_spp = 13, .not_done = 0, .seconds = 2.5}};
@@ -227,8 +227,8 @@ TEST(ExrAttributes, HaveEveryNumberUnderItsName) {
   const json settings = json::parse(attributes.at("settings"));
   EXPECT_EQ(settings.at("passes"), 2);
   EXPECT_EQ(settings.at("seed"), 77);
-  EXPECT_EQ(settings.at("policy").at("estimator"), "contrast");
-  EXPECT_EQ(settings.at("policy").at("max_spp"), 4321);
+  EXPECT_EQ(settings.at("lane").at("estimator"), "contrast");
+  EXPECT_EQ(settings.at("lane").at("max_spp"), 4321);
   attributes.erase("settings");
   attributes.erase("varianceMeaning");
   EXPECT_EQ(attributes, (std::map<std::string, std::string>{

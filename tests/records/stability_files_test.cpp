@@ -34,7 +34,7 @@ CaseResult counted_case() {
   result.height = 5;
   Trial trial;
   trial.failure = result.failure;
-  trial.policy = test::kl_policy(0.25f, SampleUse::unbiased);
+  trial.settings = test::kl_settings(0.25f, SampleUse::unbiased);
   trial.tuning = Tuning::budget;
   trial.variation = Variation::exposure;
   trial.seed = 3;
@@ -42,7 +42,7 @@ CaseResult counted_case() {
   trial.outcome = counted_outcome(100.0);
   trial.outcome.missed = Outcome::unknown;
   result.trials.push_back(trial);
-  trial.policy = default_policy(EstimatorId::uniform);
+  trial.settings = default_settings(EstimatorId::uniform);
   trial.tuning = Tuning::usual;
   trial.variation = Variation::resolution;
   trial.seed = 4;
@@ -61,7 +61,7 @@ Cell counted_cell(double first, Tuning tuning) {
   Cell cell;
   cell.failure = &find_failure_case("two-valued");
   cell.tuning = tuning;
-  cell.policy = test::kl_policy(tuning == Tuning::usual ? 0.5f : 0.25f);
+  cell.settings = test::kl_settings(tuning == Tuning::usual ? 0.5f : 0.25f);
   cell.picture = {around(first + 1), 0.01};
   cell.region = {around(first + 2), 0.02};
   cell.unbiased_picture = {around(first + 3), 0.03};

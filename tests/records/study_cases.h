@@ -44,12 +44,12 @@ inline void expect_lines(const std::string& text, const std::vector<std::string>
   }
 }
 
-inline SamplingPolicy kl_policy(float threshold, SampleUse use = SampleUse::reuse) {
-  SamplingPolicy policy = default_policy(EstimatorId::kl);
-  policy.thresholds[0] = threshold;
-  policy.allocation.kind = AllocationId::converge;
-  policy.use = use;
-  return policy;
+inline LaneSettings kl_settings(float threshold, SampleUse use = SampleUse::reuse) {
+  LaneSettings settings = default_settings(EstimatorId::kl);
+  settings.thresholds[0] = threshold;
+  settings.allocation.kind = AllocationId::converge;
+  settings.use = use;
+  return settings;
 }
 
 }  // namespace quartet::test

@@ -173,10 +173,10 @@ TEST(Synthetic, IsOpenedByNameAndFeedsALab) {
 
   RenderSettings settings = default_settings(scene);
   settings.seed = 5;
-  const SamplingPolicy policy = default_policy(EstimatorId::uniform);
+  const LaneSettings lane = default_settings(EstimatorId::uniform);
   Lab lab(sample_source(std::make_shared<const TraceScene>(open_scene("synthetic:non-finite")),
                         settings),
-          settings.width, settings.height, std::span(&policy, 1));
+          settings.width, settings.height, std::span(&lane, 1));
   for (int pass = 0; pass < 8; ++pass) {
     ASSERT_TRUE(lab.run_pass());
   }

@@ -16,7 +16,7 @@ EqualiseRequest request_for(const CommonBudget& budget) {
   const LabRequest lab = four_lanes();
   EqualiseRequest request;
   request.store = lab.store;
-  request.policies = lab.lanes.policies;
+  request.lane_settings = lab.lanes.settings;
   request.budget = budget;
   return request;
 }
@@ -42,12 +42,12 @@ EqualiseStatus equalised(EqualiseTask& task, const EqualiseRequest& request) {
 /// What the session of the window gives with these thresholds is what was asked for.
 void expect_equal_spp(const EqualiseRequest& request, const EqualiseStatus& status, double spp) {
   LabRequest lab = four_lanes();
-  for (std::size_t i = 0; i < lab.lanes.policies.size(); ++i) {
-    lab.lanes.policies[i] = status.calibrations[i].policy;
+  for (std::size_t i = 0; i < lab.lanes.settings.size(); ++i) {
+    lab.lanes.settings[i] = status.calibrations[i].settings;
   }
   const Snapshot snapshot = headless(lab);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
-    EXPECT_EQ(status.calibrations[i].policy.estimator, request.policies[i].estimator);
+    EXPECT_EQ(status.calibrations[i].settings.estimator, request.lane_settings[i].estimator);
     ASSERT_TRUE(status.calibrations[i].met) << status.calibrations[i].reason;
     EXPECT_NEAR(double(snapshot.lanes[i].history.back().samples) / double(snapshot.pixels()), spp,
                 0.011 * spp);

@@ -76,7 +76,7 @@ TEST(Mailbox, OnlyOtherSamplesOrAnotherWayToKeepThemNeedAnotherStore) {
   EXPECT_EQ(after([](LabRequest& r) { r.store.threads = 7; }), Waiting::other_store);
 
   const auto truth = std::make_shared<const RadianceImage>(1, 1);
-  EXPECT_EQ(after([](LabRequest& r) { r.lanes.policies.resize(2); }), Waiting::other_lanes);
+  EXPECT_EQ(after([](LabRequest& r) { r.lanes.settings.resize(2); }), Waiting::other_lanes);
   EXPECT_EQ(after([](LabRequest& r) { r.lanes.pass = 1; }), Waiting::other_lanes);
   EXPECT_EQ(after([](LabRequest& r) { r.lanes.variance = true; }), Waiting::other_lanes);
   EXPECT_EQ(after([&](LabRequest& r) { r.lanes.reference = truth; }), Waiting::other_lanes);

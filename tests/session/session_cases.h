@@ -34,7 +34,7 @@ inline LabRequest four_lanes() {
   request.store.threads = 2;
   for (const EstimatorId id :
        {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2, EstimatorId::hellinger}) {
-    request.lanes.policies.push_back(default_policy(id));
+    request.lanes.settings.push_back(default_settings(id));
   }
   return request;
 }
@@ -67,7 +67,7 @@ inline Snapshot headless(const LabRequest& request) {
   options.reference = request.lanes.reference;
   options.pilot_source = pilot_source(request.store.scene, request.store.settings);
   Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
-          request.store.settings.height, request.lanes.policies, options);
+          request.store.settings.height, request.lanes.settings, options);
   while (lab.pass() < request.lanes.pass) {
     lab.run_pass();
   }
@@ -85,7 +85,7 @@ inline void expect_same(const Snapshot& a, const Snapshot& b) {
   for (std::size_t i = 0; i < a.lanes.size(); ++i) {
     const LaneSnapshot& x = a.lanes[i];
     const LaneSnapshot& y = b.lanes[i];
-    EXPECT_EQ(x.policy, y.policy);
+    EXPECT_EQ(x.settings, y.settings);
     EXPECT_EQ(x.mean, y.mean);
     EXPECT_EQ(x.taken, y.taken);
     EXPECT_EQ(x.rejected, y.rejected);

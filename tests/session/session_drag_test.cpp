@@ -59,10 +59,10 @@ TEST(SessionThreads, AFastDragOfAThresholdShowsPicturesAndEndsRight) {
   request.store.settings.width *= 4;
   request.store.settings.height *= 4;
   ASSERT_TRUE(answer(session, request));
-  const float threshold = request.lanes.policies[1].thresholds[0];
+  const float threshold = request.lanes.settings[1].thresholds[0];
   // Into what is not yet traced.
   drag(session, request, 1000, [&](LabRequest& dragged, int step) {
-    dragged.lanes.policies[1].thresholds[0] = threshold * std::pow(0.997f, float(step % 1500));
+    dragged.lanes.settings[1].thresholds[0] = threshold * std::pow(0.997f, float(step % 1500));
   });
   request.lanes.pass = 6;
   expect_as_headless(session, request);
@@ -73,17 +73,17 @@ TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
   LabRequest request = four_lanes();
   request.lanes.reference = grey_reference(0.3f);
   drag(session, request, 600, [](LabRequest& changed, int step) {
-    const auto lane = std::size_t(step) % changed.lanes.policies.size();
+    const auto lane = std::size_t(step) % changed.lanes.settings.size();
     switch (step % 9) {
       case 0:
         changed.lanes.pass = 1 + std::uint32_t(step) % 11;
         break;
       case 1:
-        changed.lanes.policies[lane].max_spp = 3 + std::uint32_t(step) % 17;
+        changed.lanes.settings[lane].max_spp = 3 + std::uint32_t(step) % 17;
         break;
       case 2:
-        changed.lanes.policies[lane] =
-            default_policy(estimators()[std::size_t(step) % estimators().size()].key);
+        changed.lanes.settings[lane] =
+            default_settings(estimators()[std::size_t(step) % estimators().size()].key);
         break;
       case 3:
         if (step % 4 == 0) {
@@ -94,17 +94,18 @@ TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
         changed.lanes.variance = step % 3 == 0;
         break;
       case 5:
-        changed.lanes.policies.resize(1 + std::size_t(step) % 5, default_policy(EstimatorId::chi2));
+        changed.lanes.settings.resize(1 + std::size_t(step) % 5,
+                                      default_settings(EstimatorId::chi2));
         break;
       case 6:
-        changed.lanes.policies[lane].use =
+        changed.lanes.settings[lane].use =
             sample_uses()[std::size_t(step) % sample_uses().size()].key;
         break;
       case 7:
         changed.lanes.reference = grey_reference(0.1f * float(step % 4));
         break;
       default:
-        changed.lanes.policies[lane].thresholds[0] *= 0.9f;
+        changed.lanes.settings[lane].thresholds[0] *= 0.9f;
     }
   });
   expect_as_headless(session, request);

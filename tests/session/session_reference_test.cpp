@@ -24,11 +24,11 @@ std::shared_ptr<const RadianceImage> picture_of(float level, int w = width, int 
 std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
   LabOptions options;
   options.threads = 1;
-  std::vector<SamplingPolicy> policies = request.lanes.policies;
-  policies.push_back(default_policy(EstimatorId::uniform));
+  std::vector<LaneSettings> lane_settings = request.lanes.settings;
+  lane_settings.push_back(default_settings(EstimatorId::uniform));
   Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
-          request.store.settings.height, policies, options);
-  std::vector<std::vector<double>> errors(policies.size());
+          request.store.settings.height, lane_settings, options);
+  std::vector<std::vector<double>> errors(lane_settings.size());
   while (lab.pass() < request.lanes.pass) {
     lab.run_pass();
     for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -45,13 +45,13 @@ void expect_errors(Session& session, const LabRequest& request) {
   EXPECT_EQ(snapshot->reference, request.lanes.reference);
   EXPECT_EQ(snapshot->metric, request.lanes.metric);
   const auto errors = headless_errors(request);
-  ASSERT_EQ(snapshot->lanes.size(), request.lanes.policies.size());
+  ASSERT_EQ(snapshot->lanes.size(), request.lanes.settings.size());
   ASSERT_TRUE(snapshot->baseline);
   for (std::size_t i = 0; i < snapshot->lanes.size(); ++i) {
     EXPECT_EQ(true_errors(snapshot->lanes[i]), errors[i]) << "lane " << i + 1;
   }
   EXPECT_EQ(true_errors(*snapshot->baseline), errors.back());
-  EXPECT_EQ(snapshot->baseline->policy, default_policy(EstimatorId::uniform));
+  EXPECT_EQ(snapshot->baseline->settings, default_settings(EstimatorId::uniform));
   EXPECT_EQ(snapshot->baseline->history.back().samples,
             std::uint64_t(request.lanes.pass) * snapshot->pixels());
   expect_same(*snapshot, headless(request));
@@ -70,7 +70,7 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
   }
   {
     SCOPED_TRACE("a threshold");
-    request.lanes.policies[1].thresholds[0] *= 0.5f;
+    request.lanes.settings[1].thresholds[0] *= 0.5f;
     expect_errors(session, request);
   }
   {
@@ -92,9 +92,9 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
   }
   {
     SCOPED_TRACE("lanes");
-    request.lanes.policies.pop_back();
+    request.lanes.settings.pop_back();
     expect_errors(session, request);
-    request.lanes.policies.push_back(default_policy(EstimatorId::chi2));
+    request.lanes.settings.push_back(default_settings(EstimatorId::chi2));
     expect_errors(session, request);
   }
   {
@@ -119,7 +119,7 @@ TEST(SessionThreads, ErrorsAreRightAfterManyChangesThatWereNotWaitedFor) {
   const LabRequest first = request;
   ASSERT_TRUE(answer(session, request));
   for (int i = 0; i < 60; ++i) {
-    request.lanes.policies[std::size_t(i) % 4].thresholds[0] *= i % 2 == 0 ? 0.9f : 1.1f;
+    request.lanes.settings[std::size_t(i) % 4].thresholds[0] *= i % 2 == 0 ? 0.9f : 1.1f;
     request.lanes.metric = i % 5 == 0 ? MetricId::mse : MetricId::relmse;
     session.submit(request);
     std::this_thread::sleep_for(std::chrono::microseconds(300 * (i % 7)));
@@ -148,8 +148,8 @@ TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
   LabRequest request = four_lanes();
   request.lanes.pass = LaneRequest::no_end;
   request.lanes.reference = picture_of(0.5f);
-  for (SamplingPolicy& policy : request.lanes.policies) {
-    policy.allocation.kind = AllocationId::two_level;
+  for (LaneSettings& settings : request.lanes.settings) {
+    settings.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);
   EXPECT_TRUE(wait_until(

@@ -21,17 +21,17 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   expect_as_headless(session, request);
   {
     SCOPED_TRACE("a threshold");
-    request.lanes.policies[1].thresholds[0] *= 0.5f;
+    request.lanes.settings[1].thresholds[0] *= 0.5f;
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("an estimator");
-    request.lanes.policies[2] = default_policy(EstimatorId::uniform);
+    request.lanes.settings[2] = default_settings(EstimatorId::uniform);
     expect_as_headless(session, request);
   }
   {
     SCOPED_TRACE("a reference, and another");
-    request.lanes.policies[2] = default_policy(EstimatorId::oracle);
+    request.lanes.settings[2] = default_settings(EstimatorId::oracle);
     request.lanes.reference = grey_reference(0.3f);
     expect_as_headless(session, request);
     request.lanes.reference = grey_reference(0.5f);
@@ -39,11 +39,11 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   }
   {
     SCOPED_TRACE("a mode");
-    request.lanes.policies[1].use = SampleUse::unbiased;
+    request.lanes.settings[1].use = SampleUse::unbiased;
     expect_as_headless(session, request);
-    request.lanes.policies[1].use = SampleUse::reuse;
+    request.lanes.settings[1].use = SampleUse::reuse;
     expect_as_headless(session, request);
-    request.lanes.policies[2] = default_policy(EstimatorId::uniform);
+    request.lanes.settings[2] = default_settings(EstimatorId::uniform);
     request.lanes.reference.reset();
     expect_as_headless(session, request);
   }
@@ -66,10 +66,10 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   }
   {
     SCOPED_TRACE("lanes");
-    request.lanes.policies.pop_back();
+    request.lanes.settings.pop_back();
     expect_as_headless(session, request);
-    request.lanes.policies.push_back(default_policy(EstimatorId::hellinger));
-    request.lanes.policies.push_back(default_policy(EstimatorId::uniform));
+    request.lanes.settings.push_back(default_settings(EstimatorId::hellinger));
+    request.lanes.settings.push_back(default_settings(EstimatorId::uniform));
     expect_as_headless(session, request);
   }
   {
@@ -92,7 +92,7 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
 TEST(SessionThreads, AnOracleWithoutAReferenceIsAnError) {
   Session session;
   LabRequest request = four_lanes();
-  request.lanes.policies[1] = default_policy(EstimatorId::oracle);
+  request.lanes.settings[1] = default_settings(EstimatorId::oracle);
   session.submit(request);
   EXPECT_TRUE(wait_until([&] { return !session.status().error.empty(); }));
   EXPECT_NE(session.status().error.find("oracle"), std::string::npos) << session.status().error;
@@ -118,7 +118,7 @@ TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
   const std::uint64_t stored = stored_samples(session);
   EXPECT_GT(stored, std::uint64_t(width * height * passes));
 
-  request.lanes.policies[0].thresholds = {10.0f, 10.0f, 10.0f};
+  request.lanes.settings[0].thresholds = {10.0f, 10.0f, 10.0f};
   ASSERT_TRUE(answer(session, request));
   wait_until_idle(session);
   EXPECT_EQ(stored_samples(session), stored) << "a higher threshold needs nothing new";
@@ -164,8 +164,8 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
   Session session;
   LabRequest request = four_lanes();
   request.lanes.pass = LaneRequest::no_end;
-  for (SamplingPolicy& policy : request.lanes.policies) {
-    policy.allocation.kind = AllocationId::two_level;
+  for (LaneSettings& settings : request.lanes.settings) {
+    settings.allocation.kind = AllocationId::two_level;
   }
   session.submit(request);
   std::shared_ptr<const Snapshot> snapshot;
@@ -181,7 +181,7 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
     EXPECT_GE(lane.history.size(), 2u);
   }
   // It can be woken again, and goes on from there.
-  request.lanes.policies[0].allocation.kind = AllocationId::vote;
+  request.lanes.settings[0].allocation.kind = AllocationId::vote;
   request.lanes.pass = 6;
   expect_as_headless(session, request);
 }
@@ -191,7 +191,7 @@ TEST(SessionThreads, AShortMemoryChangesNothing) {
   LabRequest request = four_lanes();
   request.store.memory = 200'000;
   expect_as_headless(session, request);
-  request.lanes.policies[3].thresholds[0] *= 0.5f;
+  request.lanes.settings[3].thresholds[0] *= 0.5f;
   expect_as_headless(session, request);
   EXPECT_TRUE(session.status().partial);
 }
@@ -211,7 +211,7 @@ TEST(SessionThreads, AnErrorIsReportedAndTheSessionLivesOn) {
   EXPECT_EQ(session.latest(), before);
 
   LabRequest without_lanes = request;
-  without_lanes.lanes.policies.clear();
+  without_lanes.lanes.settings.clear();
   session.submit(without_lanes);
   EXPECT_TRUE(wait_until([&] { return session.status().error == "no lane to render"; }));
   EXPECT_EQ(session.status().error, "no lane to render");
@@ -233,7 +233,7 @@ LabRequest long_pass() {
   request.store.settings.camera = test::pinhole({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 60.0f);
   request.store.settings.width = 1600;
   request.store.settings.height = 1200;
-  request.lanes.policies = {default_policy(EstimatorId::kl)};
+  request.lanes.settings = {default_settings(EstimatorId::kl)};
   return request;
 }
 
@@ -265,7 +265,7 @@ TEST(SessionThreads, ClosesAtAnyMoment) {
       kept = session.latest();
     }
     // A snapshot outlives its session.
-    EXPECT_TRUE(!kept || kept->lanes.size() == request.lanes.policies.size());
+    EXPECT_TRUE(!kept || kept->lanes.size() == request.lanes.settings.size());
   }
 }
 

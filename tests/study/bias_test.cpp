@@ -17,13 +17,13 @@ std::vector<BiasRuns> measure(const char* scene, EstimatorId id, AllocationId ki
                               std::uint32_t passes, std::uint32_t seeds) {
   auto made = std::make_shared<const TraceScene>(open_scene(scene));
   RenderSettings settings = default_settings(made->scene());
-  SamplingPolicy policy = default_policy(id);
-  policy.allocation.kind = kind;
-  policy.thresholds = {threshold, threshold, threshold};
-  policy.max_spp = 64;
+  LaneSettings lane = default_settings(id);
+  lane.allocation.kind = kind;
+  lane.thresholds = {threshold, threshold, threshold};
+  lane.max_spp = 64;
   double last = 0.0;
   std::vector<BiasRuns> runs =
-      measure_bias(made, settings, std::span(&policy, 1), passes, seeds, {}, [&](double done) {
+      measure_bias(made, settings, std::span(&lane, 1), passes, seeds, {}, [&](double done) {
         EXPECT_GE(done, last);
         last = done;
       });
@@ -37,10 +37,10 @@ TEST(Bias, OfReuseIsFoundAndModeUnbiasedHasNone) {
     const std::vector<BiasRuns> runs =
         measure("synthetic:bernoulli", EstimatorId::chi2, kind, 0.01f, 8, 8);
     ASSERT_EQ(runs.size(), 2u);
-    EXPECT_EQ(runs[0].policy.use, SampleUse::reuse);
+    EXPECT_EQ(runs[0].settings.use, SampleUse::reuse);
     EXPECT_LT(mean_p(runs[0].energy, 0.0), 1e-4);
     EXPECT_LT(mean_interval(runs[0].energy, 1e-4).high, 0.0);
-    EXPECT_EQ(runs[1].policy.use, SampleUse::unbiased);
+    EXPECT_EQ(runs[1].settings.use, SampleUse::unbiased);
     EXPECT_GT(mean_p(runs[1].energy, 0.0), 1e-4);
   }
 }
@@ -56,14 +56,14 @@ TEST(Bias, OfWhatDecidesNothingIsExactlyZero) {
     for (const float difference : each.difference.pixels()) {
       EXPECT_EQ(difference, 0.0f);
     }
-    EXPECT_EQ(each.mean_spp.front(), each.policy.use == SampleUse::reuse ? 5.0 : 10.0);
+    EXPECT_EQ(each.mean_spp.front(), each.settings.use == SampleUse::reuse ? 5.0 : 10.0);
     // Variance e − 1 over five samples, in 18 432 numbers of two seeds each with a heavy tail.
     EXPECT_NEAR(each.noise, (std::exp(1.0) - 1.0) / 5.0, 0.06);
   }
   EXPECT_GT(price_of_unbiasedness(runs[0], runs[1]), 0.0);
 }
 
-/// What one seed's runs show: of a policy in both modes, and of uniform sampling with as many
+/// What one seed's runs show: of a lane in both modes, and of uniform sampling with as many
 /// samples as mode reuse took in the mean.
 struct SeedPictures {
   std::array<RadianceImage, 2> shown;
@@ -72,15 +72,15 @@ struct SeedPictures {
 };
 
 SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderSettings settings,
-                         SamplingPolicy policy, std::uint32_t passes, std::uint64_t seed) {
+                         LaneSettings lane, std::uint32_t passes, std::uint64_t seed) {
   settings.seed = seed;
   const SampleSource source = sample_source(scene, settings);
   SeedPictures pictures;
   for (std::size_t mode = 0; mode < 2; ++mode) {
-    policy.use = mode == 0 ? SampleUse::reuse : SampleUse::unbiased;
+    lane.use = mode == 0 ? SampleUse::reuse : SampleUse::unbiased;
     LabOptions options;
     options.pilot_source = pilot_source(scene, settings);
-    Lab lab(source, settings.width, settings.height, std::span(&policy, 1), options);
+    Lab lab(source, settings.width, settings.height, std::span(&lane, 1), options);
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
       lab.run_pass();
     }
@@ -88,7 +88,7 @@ SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderS
     pictures.mean_spp[mode] =
         double(lab.lanes()[0].history().back().samples) / double(pictures.shown[mode].size());
   }
-  const SamplingPolicy even = default_policy(EstimatorId::uniform);
+  const LaneSettings even = default_settings(EstimatorId::uniform);
   Lab uniform(source, settings.width, settings.height, std::span(&even, 1));
   while (uniform.pass() < std::uint32_t(std::lround(pictures.mean_spp[0]))) {
     uniform.run_pass();
@@ -111,15 +111,15 @@ TEST(Bias, EveryNumberIsThatOfTheSeedsRunsAlone) {
   settings.width = 12;
   settings.height = 9;
   settings.seed = 40;
-  SamplingPolicy policy = default_policy(EstimatorId::kl);
+  LaneSettings lane = default_settings(EstimatorId::kl);
   constexpr std::uint32_t passes = 4;
   constexpr std::uint32_t seeds = 3;
   const std::vector<BiasRuns> runs =
-      measure_bias(scene, settings, std::span(&policy, 1), passes, seeds, {}, [](double) {});
+      measure_bias(scene, settings, std::span(&lane, 1), passes, seeds, {}, [](double) {});
   ASSERT_EQ(runs.size(), 2u);
   std::vector<SeedPictures> alone;
   for (std::uint64_t seed = 40; seed < 40 + seeds; ++seed) {
-    alone.push_back(pictures_of(scene, settings, policy, passes, seed));
+    alone.push_back(pictures_of(scene, settings, lane, passes, seed));
   }
   EXPECT_NE(alone[0].uniform, alone[1].uniform);
   EXPECT_NE(alone[1].uniform, alone[2].uniform);
@@ -171,11 +171,11 @@ TEST(Bias, ThePriceIsNoiseTimesSecondsOverThoseOfReuse) {
 
 TEST(Bias, EndsEarlyIfAskedTo) {
   auto scene = std::make_shared<const TraceScene>(open_scene("synthetic:bernoulli"));
-  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  const LaneSettings lane = default_settings(EstimatorId::kl);
   std::stop_source stop;
   stop.request_stop();
   EXPECT_TRUE(measure_bias(
-                  scene, default_settings(scene->scene()), std::span(&policy, 1), 3, 2, {},
+                  scene, default_settings(scene->scene()), std::span(&lane, 1), 3, 2, {},
                   [](double) {}, stop.get_token())
                   .empty());
 }

@@ -23,39 +23,40 @@ Experiment make_experiment(int threads = 0) {
                         test::noisy_truth(calibrated_width, calibrated_height)));
 }
 
-std::vector<SamplingPolicy> policies_with_thresholds() {
-  std::vector<SamplingPolicy> policies;
+std::vector<LaneSettings> lanes_with_thresholds() {
+  std::vector<LaneSettings> lane_settings;
   for (const Estimator& row : estimators()) {
     if (row.channels > 0) {
-      policies.push_back(default_policy(row.key));
-      policies.back().allocation.kind = AllocationId::vote;
+      lane_settings.push_back(default_settings(row.key));
+      lane_settings.back().allocation.kind = AllocationId::vote;
     }
   }
-  return policies;
+  return lane_settings;
 }
 
-/// What a policy gives, by a run of its own.
-Measurement run_of(const SamplingPolicy& policy, std::uint32_t passes) {
+/// What a lane gives, by a run of its own.
+Measurement run_of(const LaneSettings& settings, std::uint32_t passes) {
   Experiment experiment = make_experiment();
   return experiment
-      .run({.policy = policy, .stop = {.passes = passes}, .metrics = {MetricId::relmse}})
+      .run({.settings = settings, .stop = {.passes = passes}, .metrics = {MetricId::relmse}})
       ->back();
 }
 
 TEST(Calibrate, EveryEstimatorMeetsTheSameMeanOfSamples) {
   Experiment experiment = make_experiment();
-  for (const SamplingPolicy& policy : policies_with_thresholds()) {
-    SCOPED_TRACE(estimator(policy.estimator).id);
-    const auto found = calibrate(experiment, policy, {.passes = 12, .spp = 24.0});
+  for (const LaneSettings& settings : lanes_with_thresholds()) {
+    SCOPED_TRACE(estimator(settings.estimator).id);
+    const auto found = calibrate(experiment, settings, {.passes = 12, .spp = 24.0});
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->met) << found->reason;
     EXPECT_NEAR(found->result.mean_spp, 24.0, 0.24);
     EXPECT_EQ(found->result.record.pass, 12u);
     // The thresholds alone reproduce it.
-    EXPECT_EQ(run_of(found->policy, 12).record.samples, found->result.record.samples);
+    EXPECT_EQ(run_of(found->settings, 12).record.samples, found->result.record.samples);
     // All are scaled alike.
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_EQ(found->policy.thresholds[c], float(double(policy.thresholds[c]) * found->factor));
+      EXPECT_EQ(found->settings.thresholds[c],
+                float(double(settings.thresholds[c]) * found->factor));
     }
     EXPECT_LT(found->runs, 40);
   }
@@ -66,20 +67,20 @@ TEST(Calibrate, IsTheSameTwiceAndWithAnyThreads) {
   for (const int threads : {1, 2, 2}) {
     Experiment experiment = make_experiment(threads);
     found.push_back(
-        *calibrate(experiment, default_policy(EstimatorId::kl), {.passes = 10, .spp = 20.0}));
+        *calibrate(experiment, default_settings(EstimatorId::kl), {.passes = 10, .spp = 20.0}));
   }
-  EXPECT_EQ(found[0].policy, found[1].policy);
-  EXPECT_EQ(found[0].policy, found[2].policy);
+  EXPECT_EQ(found[0].settings, found[1].settings);
+  EXPECT_EQ(found[0].settings, found[2].settings);
   EXPECT_EQ(found[0].runs, found[1].runs);
 }
 
 TEST(Calibrate, MeetsAnError) {
   Experiment experiment = make_experiment();
-  const SamplingPolicy policy = default_policy(EstimatorId::contrast);
-  const double middle = std::sqrt(run_of(scaled_thresholds(policy, 1e6), 12).values[0] *
-                                  run_of(scaled_thresholds(policy, 1e-6), 12).values[0]);
-  const auto found =
-      calibrate(experiment, policy, {.passes = 12, .error = ErrorTarget{MetricId::relmse, middle}});
+  const LaneSettings settings = default_settings(EstimatorId::contrast);
+  const double middle = std::sqrt(run_of(scaled_thresholds(settings, 1e6), 12).values[0] *
+                                  run_of(scaled_thresholds(settings, 1e-6), 12).values[0]);
+  const auto found = calibrate(experiment, settings,
+                               {.passes = 12, .error = ErrorTarget{MetricId::relmse, middle}});
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->met) << found->reason;
   EXPECT_NEAR(found->result.values[0], middle, 0.011 * middle);
@@ -87,11 +88,11 @@ TEST(Calibrate, MeetsAnError) {
 
 TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
   Experiment experiment = make_experiment();
-  const SamplingPolicy policy = default_policy(EstimatorId::kl);
+  const LaneSettings settings = default_settings(EstimatorId::kl);
   const auto free =
-      experiment.run({.policy = policy, .stop = {.passes = 12}, .metrics = {MetricId::psnr}});
+      experiment.run({.settings = settings, .stop = {.passes = 12}, .metrics = {MetricId::psnr}});
   const double psnr = free->back().values[0];
-  const auto found = calibrate(experiment, scaled_thresholds(policy, 1.5),
+  const auto found = calibrate(experiment, scaled_thresholds(settings, 1.5),
                                {.passes = 12, .error = ErrorTarget{MetricId::psnr, psnr}});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->result.values[0], psnr, 0.05);
@@ -99,19 +100,19 @@ TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
 
 TEST(Calibrate, SaysWhyABudgetCannotBeMet) {
   Experiment experiment = make_experiment();
-  const SamplingPolicy policy = default_policy(EstimatorId::hellinger);
-  auto found = calibrate(experiment, policy, {.passes = 15, .spp = 4.0});
+  const LaneSettings settings = default_settings(EstimatorId::hellinger);
+  auto found = calibrate(experiment, settings, {.passes = 15, .spp = 4.0});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
   EXPECT_EQ(found->reason, "15 passes of vote take at least 15 spp");
   EXPECT_EQ(found->result.mean_spp, 15.0);
-  found = calibrate(experiment, policy, {.passes = 3, .spp = 50.0});
+  found = calibrate(experiment, settings, {.passes = 3, .spp = 50.0});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
   EXPECT_EQ(found->reason.substr(0, 30), "3 passes of vote take at most ");
   EXPECT_GT(found->result.mean_spp, 9.0);
   found =
-      calibrate(experiment, policy, {.passes = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
+      calibrate(experiment, settings, {.passes = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
   EXPECT_NE(found->reason.find("lowest threshold give relmse"), std::string::npos) << found->reason;
@@ -119,7 +120,7 @@ TEST(Calibrate, SaysWhyABudgetCannotBeMet) {
 
 TEST(Calibrate, UniformTakesAsManyPassesAsTheBudgetHas) {
   Experiment experiment = make_experiment();
-  const SamplingPolicy uniform = default_policy(EstimatorId::uniform);
+  const LaneSettings uniform = default_settings(EstimatorId::uniform);
   auto found = calibrate(experiment, uniform, {.passes = 15, .spp = 24.0});
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->met);
@@ -149,7 +150,7 @@ TEST(CommonBudget, IsWhatItSaysOfARun) {
 TEST(Calibrate, UniformAtABudgetIsTheNearestOfItsPasses) {
   Experiment experiment = make_experiment();
   // Two passes are 20 % under 2.5 samples a pixel, three are 20 % above: as a ratio 3 is nearer.
-  const auto found = calibrate(experiment, default_policy(EstimatorId::uniform), {.spp = 2.5});
+  const auto found = calibrate(experiment, default_settings(EstimatorId::uniform), {.spp = 2.5});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->result.mean_spp, 3.0);
   EXPECT_EQ(found->factor, 1.0);
@@ -162,17 +163,17 @@ TEST(Calibrate, CanBeStopped) {
   std::stop_source stop;
   stop.request_stop();
   EXPECT_FALSE(
-      calibrate(experiment, default_policy(EstimatorId::kl), {.spp = 24.0}, stop.get_token()));
+      calibrate(experiment, default_settings(EstimatorId::kl), {.spp = 24.0}, stop.get_token()));
 }
 
 TEST(Calibrate, WantsExactlyOneBudget) {
   Experiment experiment = make_experiment();
-  const SamplingPolicy policy = default_policy(EstimatorId::kl);
-  EXPECT_NE(error_of([&] { calibrate(experiment, policy, {}); }), "");
-  EXPECT_NE(error_of([&] { calibrate(experiment, policy, {.spp = 3.0, .seconds = 3.0}); }), "");
+  const LaneSettings settings = default_settings(EstimatorId::kl);
+  EXPECT_NE(error_of([&] { calibrate(experiment, settings, {}); }), "");
+  EXPECT_NE(error_of([&] { calibrate(experiment, settings, {.spp = 3.0, .seconds = 3.0}); }), "");
   Experiment blind(test::noisy_source(calibrated_width), calibrated_width, calibrated_height, {});
   const CommonBudget error{.error = ErrorTarget{}};
-  EXPECT_NE(error_of([&] { calibrate(blind, policy, error); }).find("reference"),
+  EXPECT_NE(error_of([&] { calibrate(blind, settings, error); }).find("reference"),
             std::string::npos);
 }
 

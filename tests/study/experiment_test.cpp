@@ -24,7 +24,7 @@ Experiment make_run() {
 }
 
 RunPlan plan_of(EstimatorId id, std::uint32_t passes) {
-  return {.policy = default_policy(id),
+  return {.settings = default_settings(id),
           .stop = {.passes = passes},
           .metrics = {MetricId::mse, MetricId::relmse}};
 }
@@ -37,7 +37,7 @@ TEST(Experiment, ARunIsWhatALabAloneGives) {
     const auto run = experiment.run(plan);
     ASSERT_TRUE(run);
     ASSERT_EQ(run->size(), 1u);
-    Lab alone(test::noisy_source(run_width), run_width, run_height, std::span(&plan.policy, 1));
+    Lab alone(test::noisy_source(run_width), run_width, run_height, std::span(&plan.settings, 1));
     while (alone.pass() < 6) {
       alone.run_pass();
     }
@@ -113,7 +113,7 @@ TEST(Experiment, RefusesWhatCannotBeMeasuredOrNeverEnds) {
   Experiment blind(test::noisy_source(run_width), run_width, run_height, {});
   EXPECT_NE(error_of([&] { blind.run(plan_of(EstimatorId::kl, 3)); }).find("reference"),
             std::string::npos);
-  RunPlan plan{.policy = default_policy(EstimatorId::kl), .stop = {}};
+  RunPlan plan{.settings = default_settings(EstimatorId::kl), .stop = {}};
   EXPECT_NE(error_of([&] { blind.run(plan); }).find("condition"), std::string::npos);
   plan.stop.passes = 3;
   EXPECT_TRUE(blind.run(plan)->back().values.empty());

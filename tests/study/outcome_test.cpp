@@ -76,22 +76,22 @@ void sample_made(int x, int y, std::uint32_t first, std::span<glm::vec3> radianc
 }
 
 /// Four samples of each pixel, then two more of those that are not done, up to eight.
-SamplingPolicy made_policy(SampleUse use = SampleUse::reuse) {
-  SamplingPolicy policy = default_policy(EstimatorId::oracle);
-  policy.allocation.kind = AllocationId::batch;
-  policy.allocation.first = 4;
-  policy.allocation.batch = 2;
-  policy.thresholds[0] = 0.25f;
-  policy.max_spp = 8;
-  policy.use = use;
-  return policy;
+LaneSettings made_settings(SampleUse use = SampleUse::reuse) {
+  LaneSettings settings = default_settings(EstimatorId::oracle);
+  settings.allocation.kind = AllocationId::batch;
+  settings.allocation.first = 4;
+  settings.allocation.batch = 2;
+  settings.thresholds[0] = 0.25f;
+  settings.max_spp = 8;
+  settings.use = use;
+  return settings;
 }
 
-Lab made_lab(const SamplingPolicy& policy) {
+Lab made_lab(const LaneSettings& settings) {
   LabOptions options;
   options.reference = std::make_shared<const RadianceImage>(oracle_picture());
   options.pilot_source = SampleSource(sample_made);
-  return {SampleSource(sample_made), made_width, made_height, std::span(&policy, 1), options};
+  return {SampleSource(sample_made), made_width, made_height, std::span(&settings, 1), options};
 }
 
 Truth made_truth() {
@@ -121,7 +121,7 @@ Outcome run_to_end(Lab& lab, const Truth& truth) {
 
 TEST(Outcome, OfALaneByHand) {
   const Truth truth = made_truth();
-  Lab lab = made_lab(made_policy());
+  Lab lab = made_lab(made_settings());
   const Outcome outcome = run_to_end(lab, truth);
   const Lane& lane = lab.lanes()[0];
   ASSERT_EQ(lane.pass(), 3u);
@@ -157,7 +157,7 @@ TEST(Outcome, OfALaneByHand) {
 
 TEST(Outcome, OfALaneWithAPilotCountsItsSamplesToo) {
   const Truth truth = made_truth();
-  Lab lab = made_lab(made_policy(SampleUse::unbiased));
+  Lab lab = made_lab(made_settings(SampleUse::unbiased));
   const Outcome outcome = run_to_end(lab, truth);
   EXPECT_DOUBLE_EQ(outcome.mean_spp, 12.0);
   EXPECT_DOUBLE_EQ(outcome.region_spp, 6.4);
@@ -167,7 +167,7 @@ TEST(Outcome, OfALaneWithAPilotCountsItsSamplesToo) {
 }
 
 TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
-  Lab lab = made_lab(made_policy());
+  Lab lab = made_lab(made_settings());
   for (int pass = 1; pass <= 3; ++pass) {
     lab.run_pass();
     const std::vector<PixelState> states = pixel_states(lab.lanes()[0]);
@@ -179,7 +179,7 @@ TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
     }
   }
   // Without an error nothing is ever done.
-  SamplingPolicy uniform = default_policy(EstimatorId::uniform);
+  LaneSettings uniform = default_settings(EstimatorId::uniform);
   uniform.max_spp = 2;
   Lab plain = made_lab(uniform);
   plain.run_pass();

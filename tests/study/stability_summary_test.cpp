@@ -41,9 +41,9 @@ void add_trials(CaseResult& result, const Kind& kind, double first, const Change
     trial.tuning = kind.tuning;
     trial.variation = kind.variation;
     trial.seed = seed;
-    trial.policy = default_policy(kind.estimator);
-    trial.policy.use = kind.use;
-    trial.policy.thresholds[0] = kind.tuning == Tuning::usual ? 0.125f : 0.25f;
+    trial.settings = default_settings(kind.estimator);
+    trial.settings.use = kind.use;
+    trial.settings.thresholds[0] = kind.tuning == Tuning::usual ? 0.125f : 0.25f;
     trial.outcome = numbered_outcome(first, seed);
     const auto set = [&](double Outcome::*value, Pair pair) {
       trial.outcome.*value = pair.middle + (seed == 0 ? -pair.off : pair.off);
@@ -157,9 +157,9 @@ TEST(StabilitySummary, HasACellOfEachCaseEstimatorAndTuning) {
     const Cell& cell = summary().cells[i];
     EXPECT_EQ(cell.failure->id, i < 2 ? "two-valued" : "rare-light");
     EXPECT_EQ(cell.tuning, i % 2 == 0 ? Tuning::usual : Tuning::budget);
-    EXPECT_EQ(cell.policy.estimator, EstimatorId::kl);
-    EXPECT_EQ(cell.policy.use, SampleUse::reuse);
-    EXPECT_EQ(cell.policy.thresholds[0], i % 2 == 0 ? 0.125f : 0.25f);
+    EXPECT_EQ(cell.settings.estimator, EstimatorId::kl);
+    EXPECT_EQ(cell.settings.use, SampleUse::reuse);
+    EXPECT_EQ(cell.settings.thresholds[0], i % 2 == 0 ? 0.125f : 0.25f);
   }
   EXPECT_TRUE(summarize({}, family).cells.empty());
 }
@@ -217,7 +217,7 @@ TEST(StabilitySummary, EqualTimeIsErrorTimesTimeOverThatOfUniformSampling) {
 TEST(StabilitySummary, EqualTimeOfNoErrorIsNotKnown) {
   CaseResult result = case_of("two-valued", 0);
   for (Trial& trial : result.trials) {
-    trial.outcome.relmse = trial.policy.estimator == EstimatorId::kl ? 0.0 : trial.outcome.relmse;
+    trial.outcome.relmse = trial.settings.estimator == EstimatorId::kl ? 0.0 : trial.outcome.relmse;
   }
   const Interval ratio = summarize(std::span(&result, 1), family).cells[1].equal_time;
   EXPECT_EQ(ratio.mean, 1.0);

@@ -35,7 +35,7 @@ std::vector<CaseResult> run(const StabilityOptions& options) {
 const Cell& cell_of(const StabilitySummary& summary, std::string_view failure, EstimatorId id,
                     Tuning tuning) {
   return *std::ranges::find_if(summary.cells, [&](const Cell& cell) {
-    return cell.failure->id == failure && cell.policy.estimator == id && cell.tuning == tuning;
+    return cell.failure->id == failure && cell.settings.estimator == id && cell.tuning == tuning;
   });
 }
 
@@ -79,9 +79,9 @@ TEST(Stability, MeetsTheBudgetWithEveryEstimator) {
       run(small({"bernoulli"}, {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2}));
   for (const Trial& trial : results.front().trials) {
     if (trial.tuning == Tuning::budget && trial.variation == Variation::none &&
-        trial.policy.use == SampleUse::reuse && trial.policy.estimator != EstimatorId::oracle &&
-        trial.policy.estimator != EstimatorId::contrast) {
-      EXPECT_NEAR(trial.outcome.mean_spp, 16.0, 2.0) << estimator(trial.policy.estimator).id;
+        trial.settings.use == SampleUse::reuse && trial.settings.estimator != EstimatorId::oracle &&
+        trial.settings.estimator != EstimatorId::contrast) {
+      EXPECT_NEAR(trial.outcome.mean_spp, 16.0, 2.0) << estimator(trial.settings.estimator).id;
     }
   }
 }
@@ -136,7 +136,7 @@ TEST(Stability, DoesNotDependOnThreads) {
   for (std::size_t i = 0; i < a.front().trials.size(); ++i) {
     const Trial& left = a.front().trials[i];
     const Trial& right = b.front().trials[i];
-    EXPECT_EQ(left.policy, right.policy);
+    EXPECT_EQ(left.settings, right.settings);
     for (const OutcomeColumn& column : outcome_columns()) {
       if (column.id != "seconds") {
         // To the bit, also where there is no number.

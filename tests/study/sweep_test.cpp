@@ -38,7 +38,7 @@ SampleWorld noisy_world() {
 
 SweepPlan small_plan() {
   SweepPlan plan;
-  plan.policies = {default_policy(EstimatorId::kl), default_policy(EstimatorId::contrast)};
+  plan.lane_settings = {default_settings(EstimatorId::kl), default_settings(EstimatorId::contrast)};
   plan.thresholds = 3;
   plan.seeds = 3;
   plan.stop = {.passes = 6, .spp = 20.0};
@@ -77,12 +77,12 @@ TEST(Sweep, HasEveryPolicyFactorAndSeedOnce) {
   ASSERT_EQ(result.uniform.size(), 3u);
   std::size_t i = 0;
   for (std::uint64_t seed = 5; seed < 8; ++seed) {
-    for (const SamplingPolicy& policy : small_plan().policies) {
+    for (const LaneSettings& settings : small_plan().lane_settings) {
       for (const double factor : {0.1, 1.0, 10.0}) {
         const SweepRun& run = result.runs[i++];
         EXPECT_EQ(run.seed, seed);
         EXPECT_EQ(run.factor, factor);
-        EXPECT_EQ(run.policy, scaled_thresholds(policy, factor));
+        EXPECT_EQ(run.settings, scaled_thresholds(settings, factor));
       }
     }
   }
@@ -92,9 +92,11 @@ TEST(Sweep, ARunIsThatOfALabAlone) {
   const SweepRun& run = small_result().runs[10];
   const SampleWorld world = noisy_world();
   Experiment alone(world.source(run.seed), swept_width, swept_height, {}, world.reference);
-  const auto end =
-      alone.run({.policy = run.policy, .stop = small_plan().stop, .metrics = small_plan().metrics})
-          ->back();
+  const auto end = alone
+                       .run({.settings = run.settings,
+                             .stop = small_plan().stop,
+                             .metrics = small_plan().metrics})
+                       ->back();
   EXPECT_EQ(end.record.samples, run.end.record.samples);
   EXPECT_EQ(end.values, run.end.values);
 }
@@ -173,7 +175,7 @@ TEST(SweepPoints, AreMediansOverSeedsWithTheirRange) {
 
 TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
   SweepPlan plan = small_plan();
-  plan.policies = {default_policy(EstimatorId::kl)};
+  plan.lane_settings = {default_settings(EstimatorId::kl)};
   plan.thresholds = 1;
   plan.low = 1.0;
   plan.metrics = {MetricId::mse};
@@ -188,7 +190,7 @@ TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
   for (const double noise : {1.0, 2.0, 4.0}) {
     // Uniform: noise / seconds. The other: half of that, after 3 seconds.
     result.uniform.push_back({measured(1.0, noise), measured(4.0, noise / 4.0)});
-    SweepRun run{.policy = plan.policies[0], .seed = 9 + result.runs.size()};
+    SweepRun run{.settings = plan.lane_settings[0], .seed = 9 + result.runs.size()};
     run.end = measured(3.0, 0.5 * noise / 3.0);
     result.runs.push_back(run);
   }
@@ -200,7 +202,7 @@ TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
 
 TEST(SweepPoints, OfThreeSeedsByHand) {
   SweepPlan plan = small_plan();
-  plan.policies = {default_policy(EstimatorId::kl)};
+  plan.lane_settings = {default_settings(EstimatorId::kl)};
   plan.thresholds = 1;
   plan.low = 1.0;
   plan.metrics = {MetricId::mse, MetricId::rmse, MetricId::psnr};
@@ -219,7 +221,7 @@ TEST(SweepPoints, OfThreeSeedsByHand) {
       {measured(1.5, 11, 6, 60, 31), measured(6, 44, 1.5, 30, 37), measured(9, 66, 1, 20, 39)},
       {measured(3, 30, 4, 50, 33), measured(5, 50, 1.25, 25, 38)}};
   const auto add = [&](std::uint64_t seed, const Measurement& end) {
-    SweepRun run{.policy = plan.policies[0], .seed = seed};
+    SweepRun run{.settings = plan.lane_settings[0], .seed = seed};
     run.end = end;
     result.runs.push_back(run);
   };
@@ -229,7 +231,7 @@ TEST(SweepPoints, OfThreeSeedsByHand) {
 
   const auto mse = sweep_points(result, plan, 0);
   ASSERT_EQ(mse.size(), 1u);
-  EXPECT_EQ(mse[0].policy, plan.policies[0]);
+  EXPECT_EQ(mse[0].settings, plan.lane_settings[0]);
   EXPECT_EQ(mse[0].factor, 1.0);
   EXPECT_EQ(mse[0].seconds, 3.0) << "the mean is 6";
   EXPECT_EQ(mse[0].mean_spp, 28.0) << "the mean is 46";
@@ -252,7 +254,7 @@ TEST(SweepPoints, OfThreeSeedsByHand) {
 
   const auto uniform = uniform_points(result, 0);
   ASSERT_EQ(uniform.size(), 2u) << "as many as the first seed has";
-  EXPECT_EQ(uniform[0].policy.estimator, EstimatorId::uniform);
+  EXPECT_EQ(uniform[0].settings.estimator, EstimatorId::uniform);
   EXPECT_EQ(uniform[0].seconds, 1.5);
   EXPECT_EQ(uniform[0].mean_spp, 11.0);
   EXPECT_EQ(uniform[0].error, 6.0);
@@ -351,9 +353,9 @@ TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
   for (const Chart& chart : charts) {
     EXPECT_EQ(chart.x.spacing, Spacing::logarithmic);
     EXPECT_NE(chart.y.label.find(metric(MetricId::relmse).label), std::string::npos);
-    for (const SamplingPolicy& policy : small_plan().policies) {
+    for (const LaneSettings& settings : small_plan().lane_settings) {
       const auto line =
-          std::ranges::find(chart.lines, estimator(policy.estimator).label, &Line::label);
+          std::ranges::find(chart.lines, estimator(settings.estimator).label, &Line::label);
       ASSERT_NE(line, chart.lines.end());
       EXPECT_EQ(line->points.size(), 3u);
       EXPECT_TRUE(line->dots);

@@ -19,10 +19,10 @@ struct DraggedWidget {
 
 template <std::size_t lane>
 double threshold(LabHand& hand) {
-  return double(hand.policy(lane).thresholds[0]);
+  return double(hand.settings(lane).thresholds[0]);
 }
 double multiplier(LabHand& hand) {
-  return double(hand.policy(2).allocation.multiplier);
+  return double(hand.settings(2).allocation.multiplier);
 }
 double exposure(LabHand& hand) {
   return double(hand.state().view.exposure);

@@ -104,12 +104,12 @@ TEST(ReproducingCommand, SaysAllThatIsNotAsItComes) {
   snapshot.settings.seed = 7;
   snapshot.pass = 13;
   snapshot.lanes.resize(2);
-  snapshot.lanes[0].policy = default_policy(EstimatorId::kl);
-  snapshot.lanes[1].policy = default_policy(EstimatorId::uniform);
+  snapshot.lanes[0].settings = default_settings(EstimatorId::kl);
+  snapshot.lanes[1].settings = default_settings(EstimatorId::uniform);
   const std::string plain =
       "quartet figure cornell-checker --passes 13 --size 96x54 --seed 7 --integrator mis";
-  const std::string lanes = " --lane " + lane_text(snapshot.lanes[0].policy) + " --lane " +
-                            lane_text(snapshot.lanes[1].policy);
+  const std::string lanes = " --lane " + lane_text(snapshot.lanes[0].settings) + " --lane " +
+                            lane_text(snapshot.lanes[1].settings);
   EXPECT_EQ(reproducing_command(snapshot, {}, "cornell-checker", "out", {}),
             plain + lanes + " --out out");
   snapshot.settings.max_depth = 4;

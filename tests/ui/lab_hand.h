@@ -47,7 +47,7 @@ class LabHand {
   LabState& state() { return driver_.window().state(); }
   LabDriver& driver() { return driver_; }
   const Snapshot& snapshot() { return *driver_.snapshot(); }
-  const SamplingPolicy& policy(std::size_t lane) { return state().request.lanes.policies[lane]; }
+  const LaneSettings& settings(std::size_t lane) { return state().request.lanes.settings[lane]; }
 
   void frame() {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;

@@ -36,14 +36,14 @@ TEST(LabWindow, DraggingAThresholdLineReplaysItsLaneAlone) {
   hand.settle();
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const auto before = heatmaps(hand);
-    const auto policies = hand.state().request.lanes.policies;
+    const auto lane_settings = hand.state().request.lanes.settings;
     const std::uint64_t not_done = hand.snapshot().lanes[lane].history.back().not_done;
     hand.drag(lane_widget(lane, "errors.marker0"), -45.0f);
     hand.move(-100.0f, -100.0f);
     hand.settle();
-    expect_only(lane, policies, hand.state().request.lanes.policies);
-    EXPECT_LT(hand.policy(lane).thresholds[0], policies[lane].thresholds[0]);
-    EXPECT_EQ(hand.snapshot().lanes[lane].policy, hand.policy(lane));
+    expect_only(lane, lane_settings, hand.state().request.lanes.settings);
+    EXPECT_LT(hand.settings(lane).thresholds[0], lane_settings[lane].thresholds[0]);
+    EXPECT_EQ(hand.snapshot().lanes[lane].settings, hand.settings(lane));
     EXPECT_GT(hand.snapshot().lanes[lane].history.back().not_done, not_done);
     expect_only(lane, before, heatmaps(hand));
   }
@@ -59,7 +59,7 @@ TEST(LabWindow, TheAxisOfErrorsStandsStillUnderADrag) {
   const auto threshold_at = [&](float x) {
     add_mouse_position(x, plot.center_y());
     hand.frames(2);
-    return hand.policy(1).thresholds[0];
+    return hand.settings(1).thresholds[0];
   };
   // Far to the left nearly no pixel is done and the errors shrink; then back.
   const float start = threshold_at(marker.center_x() + 6.0f);
@@ -78,7 +78,7 @@ TEST(LabWindow, TheAxisOfErrorsStandsStillUnderADrag) {
 TEST(LabWindow, TheAxisOfErrorsFollowsASliderOutwardsAndComesBackAtItsEnd) {
   LabHand hand;
   const ScreenRect slider = hand.rect("lane2.threshold0");
-  const DecadeRange usual = error_decades(hand.snapshot().lanes[2], hand.policy(2).thresholds);
+  const DecadeRange usual = error_decades(hand.snapshot().lanes[2], hand.settings(2).thresholds);
   hand.move(slider.center_x(), slider.center_y());
   hand.press(true);
   const auto pull = [&](float x) {
@@ -89,7 +89,7 @@ TEST(LabWindow, TheAxisOfErrorsFollowsASliderOutwardsAndComesBackAtItsEnd) {
   const DecadeRange wide = pull(slider.right() - 8.0f);
   EXPECT_LE(wide.first, usual.first);
   EXPECT_GE(wide.last, usual.last);
-  EXPECT_GT(std::pow(10.0, wide.last), double(hand.policy(2).thresholds[0]));
+  EXPECT_GT(std::pow(10.0, wide.last), double(hand.settings(2).thresholds[0]));
   const DecadeRange back = pull(slider.center_x());
   EXPECT_EQ(back.with(wide), back) << "it shrinks only once the mouse lets go";
   hand.press(false);
@@ -100,34 +100,34 @@ TEST(LabWindow, TheAxisOfErrorsFollowsASliderOutwardsAndComesBackAtItsEnd) {
 TEST(LabWindow, EveryThresholdOfContrastHasItsLineAndSlider) {
   LabHand hand;
   for (int channel = 0; channel < 3; ++channel) {
-    const Thresholds before = hand.policy(0).thresholds;
+    const Thresholds before = hand.settings(0).thresholds;
     hand.drag("lane0.errors.marker" + std::to_string(channel), 12.0f);
     hand.drag("lane0.threshold" + std::to_string(channel), -15.0f);
     for (int other = 0; other < 3; ++other) {
       const auto c = std::size_t(other);
-      EXPECT_EQ(before[c] != hand.policy(0).thresholds[c], other == channel);
+      EXPECT_EQ(before[c] != hand.settings(0).thresholds[c], other == channel);
     }
   }
   hand.click("lane0.reset");
-  EXPECT_EQ(hand.policy(0).thresholds, default_policy(EstimatorId::contrast).thresholds);
+  EXPECT_EQ(hand.settings(0).thresholds, default_settings(EstimatorId::contrast).thresholds);
 }
 
 TEST(LabWindow, SlidersMoveWhatTheySay) {
   LabHand hand;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto before = hand.state().request.lanes.policies;
+    const auto before = hand.state().request.lanes.settings;
     hand.drag(lane_widget(lane, "multiplier"), 40.0f);
-    const auto moved = hand.state().request.lanes.policies;
+    const auto moved = hand.state().request.lanes.settings;
     expect_only(lane, before, moved);
     EXPECT_NE(moved[lane].allocation.multiplier, before[lane].allocation.multiplier);
     const std::string slider = lane_widget(lane, "threshold0");
     hand.drag(slider, 25.0f);
-    expect_only(lane, moved, hand.state().request.lanes.policies);
+    expect_only(lane, moved, hand.state().request.lanes.settings);
     // At either end the slider gives the end of its range.
     const ScreenRect box = hand.rect(slider);
-    const ThresholdRange range = threshold_range(estimator(hand.policy(lane).estimator), 0);
+    const ThresholdRange range = threshold_range(estimator(hand.settings(lane).estimator), 0);
     hand.drag(box.center_x(), box.center_y(), box.x - 50.0f, box.center_y());
-    EXPECT_FLOAT_EQ(hand.policy(lane).thresholds[0], range.low);
+    EXPECT_FLOAT_EQ(hand.settings(lane).thresholds[0], range.low);
     hand.click(lane_widget(lane, "reset"));
   }
   hand.drag("exposure", 20.0f);
@@ -142,14 +142,14 @@ TEST(LabWindow, EstimatorComboGivesTheLaneAnother) {
   hand.choose("lane2.estimator", "uniform");
   hand.move(-100.0f, -100.0f);
   hand.settle();
-  EXPECT_EQ(hand.policy(2).estimator, EstimatorId::uniform);
-  EXPECT_EQ(hand.snapshot().lanes[2].policy.estimator, EstimatorId::uniform);
+  EXPECT_EQ(hand.settings(2).estimator, EstimatorId::uniform);
+  EXPECT_EQ(hand.snapshot().lanes[2].settings.estimator, EstimatorId::uniform);
   expect_only(2, before, heatmaps(hand));
   EXPECT_FALSE(hand.has("lane2.threshold0")) << "uniform has no threshold";
   hand.choose("lane2.estimator", "kl");
   hand.settle();
-  EXPECT_EQ(hand.policy(2), default_policy(EstimatorId::kl));
-  // The same policy gives the same lane.
+  EXPECT_EQ(hand.settings(2), default_settings(EstimatorId::kl));
+  // The same settings give the same lane.
   EXPECT_EQ(hand.snapshot().lanes[2].taken, hand.snapshot().lanes[1].taken);
 }
 
@@ -170,15 +170,15 @@ TEST(LabWindow, EveryEstimatorOfTheTableCanBeChosenAndBringsItsPolicy) {
     }
     hand.choose("lane2.estimator", id);
     hand.settle();
-    EXPECT_EQ(hand.policy(2), default_policy(row.key));
-    EXPECT_EQ(hand.snapshot().lanes[2].policy, hand.policy(2));
+    EXPECT_EQ(hand.settings(2), default_settings(row.key));
+    EXPECT_EQ(hand.snapshot().lanes[2].settings, hand.settings(2));
     EXPECT_EQ(hand.snapshot().lanes[2].error.size(),
               std::size_t(row.channels) * hand.snapshot().pixels());
   }
   // A policy that was chosen stays.
   hand.choose("lane2.policy", "two-level");
   hand.choose("lane2.estimator", "cycles");
-  EXPECT_EQ(hand.policy(2).allocation.kind, AllocationId::two_level);
+  EXPECT_EQ(hand.settings(2).allocation.kind, AllocationId::two_level);
 }
 
 TEST(LabWindow, TheModeComboMakesALaneUnbiased) {
@@ -187,7 +187,7 @@ TEST(LabWindow, TheModeComboMakesALaneUnbiased) {
   const Snapshot before = hand.snapshot();
   hand.choose("lane1.mode", "unbiased");
   hand.settle();
-  EXPECT_EQ(hand.policy(1).use, SampleUse::unbiased);
+  EXPECT_EQ(hand.settings(1).use, SampleUse::unbiased);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const LaneSnapshot& now = hand.snapshot().lanes[lane];
     EXPECT_EQ(now.mean != before.lanes[lane].mean, lane == 1) << lane;
@@ -452,7 +452,7 @@ TEST(LabWindow, ASliderKeepsItsLengthWhileTheNumbersBesideItChange) {
   hand.frames(3);
   const ScreenRect before = hand.rect("lane1.threshold0");
   const float numbers = hand.rect("lane1.numbers").width;
-  hand.state().request.lanes.policies[1].thresholds[0] = 1000.0f;  // every pixel is done
+  hand.state().request.lanes.settings[1].thresholds[0] = 1000.0f;  // every pixel is done
   hand.settle();
   EXPECT_NE(hand.rect("lane1.numbers").width, numbers);
   EXPECT_EQ(hand.rect("lane1.threshold0").width, before.width);

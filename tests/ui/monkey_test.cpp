@@ -169,13 +169,13 @@ class Monkey {
     EXPECT_LT(state.comparison.lane, lane_count);
     EXPECT_LT(state.comparison.other, lane_count);
     EXPECT_NE(state.comparison.lane, state.comparison.other);
-    ASSERT_EQ(state.request.lanes.policies.size(), lane_count);
-    for (const SamplingPolicy& policy : state.request.lanes.policies) {
-      for (int c = 0; c < estimator(policy.estimator).channels; ++c) {
-        const float threshold = policy.thresholds[std::size_t(c)];
+    ASSERT_EQ(state.request.lanes.settings.size(), lane_count);
+    for (const LaneSettings& settings : state.request.lanes.settings) {
+      for (int c = 0; c < estimator(settings.estimator).channels; ++c) {
+        const float threshold = settings.thresholds[std::size_t(c)];
         EXPECT_TRUE(threshold > 0.0f && std::isfinite(threshold)) << threshold;
       }
-      EXPECT_TRUE(std::isfinite(policy.allocation.multiplier));
+      EXPECT_TRUE(std::isfinite(settings.allocation.multiplier));
     }
     for (const auto& [name, box] : driver_.window().ui().widgets) {
       EXPECT_TRUE(std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) &&

@@ -24,7 +24,7 @@ Snapshot charted_example() {
       lane.taken[i] = 1 + std::uint32_t(i % 40);
     }
     for (std::size_t i = 0; i < lane.error.size(); ++i) {
-      lane.error[i] = 0.9f * float(i % 1000) / 1000.0f * lane.policy.thresholds[0] * 2.0f;
+      lane.error[i] = 0.9f * float(i % 1000) / 1000.0f * lane.settings.thresholds[0] * 2.0f;
     }
     lane.plan.not_done = 310;
   }
@@ -78,7 +78,7 @@ TEST(Chart, ReadingsBetweenPointsAreStraightOnTheAxes) {
 
 TEST(SampleChart, HasABarACountInTheColoursOfTheHeatmap) {
   Snapshot snapshot = charted_example();
-  snapshot.lanes[0].policy.max_spp = 40;
+  snapshot.lanes[0].settings.max_spp = 40;
   const ColorScale scale{0, 40, ColorMapId::turbo};
   const Chart chart = sample_chart(snapshot, 0, scale);
   ASSERT_EQ(chart.bars.size(), 40u);
@@ -116,7 +116,7 @@ TEST(ErrorChart, OneChannelHasBarsOneMarkerAndTheShareThatIsNotDone) {
 
 TEST(ErrorChart, ContrastHasALineAndAMarkerAChannel) {
   const Snapshot snapshot = charted_example();
-  const Thresholds thresholds = snapshot.lanes[0].policy.thresholds;
+  const Thresholds thresholds = snapshot.lanes[0].settings.thresholds;
   const Chart chart = error_chart(snapshot, 0, thresholds, accent);
   EXPECT_TRUE(chart.bars.empty());
   EXPECT_EQ(chart.shades.size(), 3u);

@@ -17,7 +17,7 @@ TEST(PixelLines, AreTheNumbersThatTheViewShows) {
   snapshot.lanes[1].mean = {{{0.0f, 0.25f}, {0.0f, 2.0f}, {0.0f, 40.0f}}};
   lane.taken = {3, 12345};
   lane.rejected = {0, 7};
-  lane.error = {0.0f, 3.0f * lane.policy.thresholds[0]};
+  lane.error = {0.0f, 3.0f * lane.settings.thresholds[0]};
   lane.variance = {0.0f, 1.0f, 0.0f, 2.0f, 0.0f, 3.0f};
   RadianceImage truth(2, 1);
   truth.pixels()[1] = {0.4f, 2.0f, 30.0f};

@@ -12,7 +12,7 @@ inline Snapshot blank_snapshot(int width, int height, std::span<const EstimatorI
   snapshot.pass = 1;
   for (const EstimatorId id : estimators) {
     LaneSnapshot lane;
-    lane.policy = default_policy(id);
+    lane.settings = default_settings(id);
     for (std::vector<float>& plane : lane.mean) {
       plane.assign(snapshot.pixels(), 0.0f);
     }

@@ -35,8 +35,8 @@ TEST(LaneExr, NothingIsInfiniteWhereAFloatHoldsTooLittle) {
   });
   LabOptions options;
   options.statistics.variance = true;
-  const SamplingPolicy policy = default_policy(EstimatorId::variance);
-  Lab lab(source, 3, 2, std::span(&policy, 1), options);
+  const LaneSettings settings = default_settings(EstimatorId::variance);
+  Lab lab(source, 3, 2, std::span(&settings, 1), options);
   ASSERT_TRUE(lab.run_pass());
   Snapshot snapshot;
   copy_lanes(lab, snapshot);
@@ -77,7 +77,7 @@ TEST(Views, EachRowDrawsEveryPixelOfEveryLane) {
 TEST(Views, TheThresholdLiesInTheMiddleOfTheErrorScale) {
   Snapshot snapshot = blank_snapshot(4, 1, two);
   LaneSnapshot& kl = snapshot.lanes[1];
-  const float threshold = kl.policy.thresholds[0];
+  const float threshold = kl.settings.thresholds[0];
   kl.error = {0.0f, threshold, 2.0f * threshold, 100.0f * threshold};
   const View view = draw_view(snapshot, 1, ViewKind::error, {});
   EXPECT_EQ(view.image.at(0, 0), sample(ColorMapId::turbo, 0.0f));
@@ -90,7 +90,7 @@ TEST(Views, TheThresholdLiesInTheMiddleOfTheErrorScale) {
 TEST(Views, ContrastCountsItsChannelWithTheLargestErrorForItsThreshold) {
   Snapshot snapshot = blank_snapshot(2, 1, two);
   LaneSnapshot& contrast = snapshot.lanes[0];
-  contrast.policy.thresholds = {0.4f, 0.2f, 0.5f};
+  contrast.settings.thresholds = {0.4f, 0.2f, 0.5f};
   //                red         green       blue
   contrast.error = {0.4f, 0.0f, 0.1f, 0.4f, 0.25f, 0.25f};
   EXPECT_EQ(largest_scaled_errors(contrast), (std::vector<float>{1.0f, 2.0f}));
@@ -101,8 +101,8 @@ TEST(Views, ContrastCountsItsChannelWithTheLargestErrorForItsThreshold) {
 TEST(Views, StopStatesAreThoseOfThePolicy) {
   Snapshot snapshot = blank_snapshot(4, 1, two);
   LaneSnapshot& kl = snapshot.lanes[1];
-  const float threshold = kl.policy.thresholds[0];
-  kl.policy.max_spp = 9;
+  const float threshold = kl.settings.thresholds[0];
+  kl.settings.max_spp = 9;
   kl.error = {0.0f, threshold, 1.5f * threshold, 1.5f * threshold};
   kl.taken = {9, 1, 8, 9};
   const View view = draw_view(snapshot, 1, ViewKind::stop_state, {});
@@ -125,7 +125,7 @@ TEST(Views, StopStatesAreThoseOfThePolicy) {
 TEST(Views, TheLegendOfStopStatesSaysWhatKeepsAPixelFromBeingDone) {
   const std::array estimators{EstimatorId::cycles, EstimatorId::uniform};
   Snapshot snapshot = blank_snapshot(1, 1, estimators);
-  snapshot.lanes[0].policy.thresholds[0] = 100.0f;
+  snapshot.lanes[0].settings.thresholds[0] = 100.0f;
   const auto label = [&](std::size_t lane) {
     return draw_view(snapshot, lane, ViewKind::stop_state, {}).legend[1].label;
   };
@@ -140,10 +140,10 @@ TEST(Views, StopStatesAreThoseOfAStudy) {
   const auto scene = std::make_shared<const TraceScene>(open_scene("synthetic:bernoulli"));
   RenderSettings settings = default_settings(scene->scene());
   settings.width = settings.height = side;
-  SamplingPolicy policy = default_policy(EstimatorId::variance);
-  policy.thresholds[0] = 0.05f;
-  policy.max_spp = 16;
-  Lab lab(sample_source(scene, settings), side, side, std::span(&policy, 1));
+  LaneSettings lane_settings = default_settings(EstimatorId::variance);
+  lane_settings.thresholds[0] = 0.05f;
+  lane_settings.max_spp = 16;
+  Lab lab(sample_source(scene, settings), side, side, std::span(&lane_settings, 1));
   while (lab.lanes()[0].plan().total > 0) {
     lab.run_pass();
   }
@@ -177,7 +177,7 @@ TEST(Views, LinkedHeatmapsShareAScaleAndReportOnesDoNot) {
   }
   EXPECT_EQ(heat_scale(snapshot, 0, HeatRange::report), (ColorScale{2, 10, ColorMapId::report}));
   EXPECT_EQ(heat_scale(snapshot, 1, HeatRange::report), (ColorScale{3, 40, ColorMapId::report}));
-  snapshot.lanes[1].policy.max_spp = 40;
+  snapshot.lanes[1].settings.max_spp = 40;
   const View view = draw_view(snapshot, 1, ViewKind::heatmap, {});
   EXPECT_EQ(view.image.at(1, 0), kCapColor);
   EXPECT_EQ(view.bar->cap_label, "the maximum of 40 spp");

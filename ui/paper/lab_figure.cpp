@@ -19,8 +19,8 @@ namespace {
 FigurePanel panel(const LaneSnapshot& lane, DisplayImage image) {
   FigurePanel panel;
   panel.image = std::move(image);
-  panel.title = estimator(lane.policy.estimator).label;
-  std::string numbers = threshold_text(lane.policy);
+  panel.title = estimator(lane.settings.estimator).label;
+  std::string numbers = threshold_text(lane.settings);
   if (!lane.history.empty()) {
     const PassRecord& last = lane.history.back();
     numbers += fmt::format(" · mean {:.1f} spp · max {} spp · {:.2f} s",
@@ -94,14 +94,14 @@ void check_figure_size(const std::string& option, int width, int height, std::si
   }
 }
 
-std::string threshold_text(const SamplingPolicy& policy) {
-  const int channels = estimator(policy.estimator).channels;
+std::string threshold_text(const LaneSettings& settings) {
+  const int channels = estimator(settings.estimator).channels;
   if (channels == 0) {
     return "no threshold";
   }
   std::string text = channels == 1 ? "threshold " : "thresholds ";
   for (int c = 0; c < channels; ++c) {
-    text += (c > 0 ? ", " : "") + format_number(policy.thresholds[std::size_t(c)]);
+    text += (c > 0 ? ", " : "") + format_number(settings.thresholds[std::size_t(c)]);
   }
   return text;
 }

@@ -9,7 +9,7 @@
 namespace quartet {
 
 /// "threshold 0.005" or "thresholds 0.4, 0.3, 0.6"; "no threshold" for uniform.
-std::string threshold_text(const SamplingPolicy& policy);
+std::string threshold_text(const LaneSettings& settings);
 
 /// The lanes' pictures side by side, each labelled with criterion, threshold, mean and maximum
 /// samples per pixel and as-if-alone seconds: figure 2 of the 2021 report.

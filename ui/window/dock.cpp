@@ -151,10 +151,11 @@ void draw_qualities(LabFrame& frame, ScreenRect box) {
   const float width = (box.width - (count - 1.0f) * gap) / count;
   for (std::size_t i = 0; i < qualities->size(); ++i) {
     const LaneSnapshot& lane = frame.evaluation.snapshot->lanes[i];
-    paint_chart(ui, fmt::format("dock.quality{}", i),
-                quality_chart((*qualities)[i], std::string(estimator(lane.policy.estimator).label),
-                              rgba_of(lane_color(i))),
-                box.cut_left(width));
+    paint_chart(
+        ui, fmt::format("dock.quality{}", i),
+        quality_chart((*qualities)[i], std::string(estimator(lane.settings.estimator).label),
+                      rgba_of(lane_color(i))),
+        box.cut_left(width));
     box.cut_left(gap);
   }
 }

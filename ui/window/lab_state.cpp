@@ -5,8 +5,8 @@ namespace quartet {
 LabState initial_state() {
   LabState state;
   for (const Estimator& row : estimators()) {
-    if (row.channels > 0 && state.request.lanes.policies.size() < lane_count) {
-      state.request.lanes.policies.push_back(default_policy(row.key));
+    if (row.channels > 0 && state.request.lanes.settings.size() < lane_count) {
+      state.request.lanes.settings.push_back(default_settings(row.key));
     }
   }
   for (LaneSlots& slots : state.slots) {

@@ -125,7 +125,7 @@ struct LabState {
 LabState initial_state();
 
 /// Gives the state a scene that was loaded: its camera, its size, its depth. Integrator, seed,
-/// policies and views stay.
+/// lanes and views stay.
 void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene);
 
 }  // namespace quartet

@@ -55,10 +55,10 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
     x += width + ui.px(4.0f);
     return pressed;
   };
-  for (std::size_t i = 0; i < frame.state.request.lanes.policies.size(); ++i) {
+  for (std::size_t i = 0; i < frame.state.request.lanes.settings.size(); ++i) {
     const std::string text =
         std::to_string(i + 1) + "  " +
-        std::string(estimator(frame.state.request.lanes.policies[i].estimator).label);
+        std::string(estimator(frame.state.request.lanes.settings[i].estimator).label);
     if (button("tab" + std::to_string(i), text, lane_color(i), i == comparison.lane)) {
       comparison.choose(i);
     }
@@ -67,7 +67,7 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
   const std::string b = "B: lane " + std::to_string(comparison.other + 1);
   if (button("other", b, lane_color(comparison.other), true)) {
     do {
-      comparison.other = (comparison.other + 1) % frame.state.request.lanes.policies.size();
+      comparison.other = (comparison.other + 1) % frame.state.request.lanes.settings.size();
     } while (comparison.other == comparison.lane);
   }
   tooltip(ui, "The lane to compare with; a click takes the next one");
@@ -146,17 +146,17 @@ void LabWindow::keep_request_consistent(bool reference_pending) {
   }
   request.lanes.pass = state_.playback.wanted();
   // Without the truth there is nothing that such a lane could look at.
-  for (SamplingPolicy& policy : request.lanes.policies) {
+  for (LaneSettings& settings : request.lanes.settings) {
     if (!request.lanes.reference && !reference_pending &&
-        estimator(policy.estimator).needs_reference) {
-      policy = default_policy(EstimatorId::uniform);
+        estimator(settings.estimator).needs_reference) {
+      settings = default_settings(EstimatorId::uniform);
     }
   }
   last_store_ = request.store;
 }
 
 void LabWindow::draw_lanes(LabFrame& frame, const ScreenRect& area) {
-  const std::size_t count = state_.request.lanes.policies.size();
+  const std::size_t count = state_.request.lanes.settings.size();
   const ColumnWish wish = column_wish(frame);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (state_.layout == LabLayout::large) {

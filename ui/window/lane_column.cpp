@@ -43,13 +43,14 @@ void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) 
   const Rgba8 accent = rgba_of(lane_color(lane));
   const std::string name = fmt::format("lane{}.", lane);
   // Ahead of the lane while one is dragged; of another estimator they would mean nothing here.
-  SamplingPolicy& wanted = frame.state.request.lanes.policies[lane];
-  const Thresholds& thresholds =
-      wanted.estimator == shown->policy.estimator ? wanted.thresholds : shown->policy.thresholds;
+  LaneSettings& wanted = frame.state.request.lanes.settings[lane];
+  const Thresholds& thresholds = wanted.estimator == shown->settings.estimator
+                                     ? wanted.thresholds
+                                     : shown->settings.thresholds;
   const DecadeRange decades = axis_of_errors(frame.state, lane, error_decades(*shown, thresholds));
   const Chart errors = error_chart(*frame.snapshot, lane, thresholds, accent, decades);
   const auto drag = paint_chart(frame.ui, name + "errors", errors, layout.charts[0]);
-  if (drag && wanted.estimator == shown->policy.estimator) {
+  if (drag && wanted.estimator == shown->settings.estimator) {
     wanted.thresholds[std::size_t(drag->id)] = float(drag->value);
   }
   hold_axis(frame, lane, decades, drag.has_value());

@@ -31,18 +31,18 @@ std::string lane_name(std::size_t lane, const char* what) {
 
 /// Another estimator brings its thresholds, and its policy unless another than the old one's was
 /// chosen.
-void choose_estimator(const Estimator& row, SamplingPolicy& policy) {
-  if (policy.allocation.kind == estimator(policy.estimator).default_allocation) {
-    policy.allocation.kind = row.default_allocation;
+void choose_estimator(const Estimator& row, LaneSettings& settings) {
+  if (settings.allocation.kind == estimator(settings.estimator).default_allocation) {
+    settings.allocation.kind = row.default_allocation;
   }
-  policy.estimator = row.key;
-  policy.thresholds = row.default_thresholds;
+  settings.estimator = row.key;
+  settings.thresholds = row.default_thresholds;
 }
 
-bool edit_estimator(Ui& ui, std::size_t lane, SamplingPolicy& policy, bool has_reference,
+bool edit_estimator(Ui& ui, std::size_t lane, LaneSettings& settings, bool has_reference,
                     float width) {
   const std::string name = lane_name(lane, "estimator");
-  return combo(ui, name, std::string(estimator(policy.estimator).label), width, [&] {
+  return combo(ui, name, std::string(estimator(settings.estimator).label), width, [&] {
     bool changed = false;
     for (const Estimator& row : estimators()) {
       if (row.needs_reference && !has_reference) {
@@ -50,8 +50,8 @@ bool edit_estimator(Ui& ui, std::size_t lane, SamplingPolicy& policy, bool has_r
         continue;
       }
       if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                    policy.estimator == row.key, std::string(row.source))) {
-        choose_estimator(row, policy);
+                    settings.estimator == row.key, std::string(row.source))) {
+        choose_estimator(row, settings);
         changed = true;
       }
     }
@@ -59,21 +59,21 @@ bool edit_estimator(Ui& ui, std::size_t lane, SamplingPolicy& policy, bool has_r
   });
 }
 
-bool edit_sample_use(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) {
+bool edit_sample_use(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
   const std::string name = lane_name(lane, "mode");
-  const bool chosen = combo(ui, name, std::string(sample_use(policy.use).label), width, [&] {
+  const bool chosen = combo(ui, name, std::string(sample_use(settings.use).label), width, [&] {
     bool changed = false;
     for (const SampleUseRow& row : sample_uses()) {
       if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                    policy.use == row.key, std::string(row.source))) {
-        policy.use = row.key;
+                    settings.use == row.key, std::string(row.source))) {
+        settings.use = row.key;
         changed = true;
       }
     }
     return changed;
   });
   tooltip(ui, "What becomes of the samples that decide where more are taken: " +
-                  std::string(sample_use(policy.use).source) + ".");
+                  std::string(sample_use(settings.use).source) + ".");
   return chosen;
 }
 
@@ -101,8 +101,8 @@ const char* threshold_format(float value) {
   return value >= 0.1f ? "%.2f" : value >= 0.01f ? "%.3f" : value >= 0.001f ? "%.4f" : "%.2e";
 }
 
-bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRect box) {
-  const Estimator& row = estimator(policy.estimator);
+bool edit_thresholds(Ui& ui, std::size_t lane, LaneSettings& settings, ScreenRect box) {
+  const Estimator& row = estimator(settings.estimator);
   const float text_y = box.y + 0.5f * (ImGui::GetFrameHeight() - font_size(ui.body));
   if (row.channels == 0) {
     text_at(ui.body, box.x, text_y, palette::dim,
@@ -113,7 +113,7 @@ bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
   const float reset = ImGui::GetFrameHeight() * 0.8f;
   ImGui::SetCursorScreenPos({box.right() - reset, box.y});
   if (icon_button(ui, lane_name(lane, "reset"), Icon::reset, true, reset)) {
-    policy.thresholds = row.default_thresholds;
+    settings.thresholds = row.default_thresholds;
     changed = true;
   }
   tooltip(ui, "Back to the default.\n" + source_text(row));
@@ -142,7 +142,7 @@ bool edit_thresholds(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRec
     text_at(one ? ui.body : ui.bold, x, text_y, one ? palette::dim : color, label);
     x += one ? text_width(ui.body, label) + ui.px(8.0f) : ui.px(13.0f);
     const ThresholdRange range = threshold_range(row, channel);
-    float& value = policy.thresholds[channel];
+    float& value = settings.thresholds[channel];
     const std::string name = fmt::format("lane{}.threshold{}", lane, c);
     const float width = slider_width(box.width);
     ImGui::SetCursorScreenPos({x, box.y});
@@ -236,7 +236,7 @@ float lane_header_height(const Ui& ui, float width) {
 
 void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   Ui& ui = frame.ui;
-  SamplingPolicy edited = frame.state.request.lanes.policies[lane];
+  LaneSettings edited = frame.state.request.lanes.settings[lane];
   bool changed = false;
   const float gap = ui.px(8.0f);
   const float row = row_height(ui);
@@ -291,7 +291,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     draw_numbers(frame, lane, box, false);
   }
   if (changed) {
-    frame.state.request.lanes.policies[lane] = edited;
+    frame.state.request.lanes.settings[lane] = edited;
   }
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 /// What of a policy stands in the header, as a slider: the first of its parameters that is a real
 /// number; null if it has none. The others are in its menu.
-const PolicyParameter* header_parameter(const SamplingPolicy& policy) {
-  for (const PolicyParameterId key : allocation(policy.allocation.kind).parameters) {
+const PolicyParameter* header_parameter(const LaneSettings& settings) {
+  for (const PolicyParameterId key : allocation(settings.allocation.kind).parameters) {
     const PolicyParameter& row = policy_parameter(key);
     if (std::holds_alternative<RealParameter>(row.value)) {
       return &row;
@@ -51,10 +51,10 @@ bool edit_value(Ui&, const std::string& label, const std::string&, const FlagPar
   return ImGui::Checkbox(label.c_str(), &(allocation.*parameter.member));
 }
 
-bool edit_parameters(Ui& ui, const std::string& name, SamplingPolicy& policy) {
+bool edit_parameters(Ui& ui, const std::string& name, LaneSettings& settings) {
   bool changed = false;
-  const PolicyParameter* const elsewhere = header_parameter(policy);
-  for (const PolicyParameterId key : allocation(policy.allocation.kind).parameters) {
+  const PolicyParameter* const elsewhere = header_parameter(settings);
+  for (const PolicyParameterId key : allocation(settings.allocation.kind).parameters) {
     const PolicyParameter& row = policy_parameter(key);
     if (&row == elsewhere) {
       continue;
@@ -62,7 +62,7 @@ bool edit_parameters(Ui& ui, const std::string& name, SamplingPolicy& policy) {
     const std::string row_name = fmt::format("{}.{}", name, row.id);
     std::visit(
         [&](const auto& value) {
-          changed |= edit_value(ui, std::string(row.label), row_name, value, policy.allocation);
+          changed |= edit_value(ui, std::string(row.label), row_name, value, settings.allocation);
         },
         row.value);
     ui.mark(row_name);
@@ -73,36 +73,36 @@ bool edit_parameters(Ui& ui, const std::string& name, SamplingPolicy& policy) {
 
 }  // namespace
 
-bool edit_policy(Ui& ui, std::size_t lane, SamplingPolicy& policy, float width) {
+bool edit_policy(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
   const std::string name = fmt::format("lane{}.policy", lane);
   const bool chosen =
-      combo(ui, name, std::string(allocation(policy.allocation.kind).label), width, [&] {
+      combo(ui, name, std::string(allocation(settings.allocation.kind).label), width, [&] {
         bool changed = false;
         for (const AllocationRow& row : allocations()) {
           if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                        policy.allocation.kind == row.key, std::string(row.source))) {
-            policy.allocation.kind = row.key;
+                        settings.allocation.kind == row.key, std::string(row.source))) {
+            settings.allocation.kind = row.key;
             changed = true;
           }
         }
         ImGui::Separator();
-        changed |= edit_parameters(ui, name, policy);
-        int cap = int(std::min<std::uint32_t>(policy.max_spp, 1u << 30));
+        changed |= edit_parameters(ui, name, settings);
+        int cap = int(std::min<std::uint32_t>(settings.max_spp, 1u << 30));
         ImGui::SetNextItemWidth(ui.px(110.0f));
         if (ImGui::InputInt("maximum spp", &cap, 0) && cap >= 1) {
-          policy.max_spp = std::uint32_t(cap);
+          settings.max_spp = std::uint32_t(cap);
           changed = true;
         }
         ui.mark(name + ".max_spp");
         return changed;
       });
   tooltip(ui, "How errors become sample counts, by " +
-                  std::string(allocation(policy.allocation.kind).source));
+                  std::string(allocation(settings.allocation.kind).source));
   return chosen;
 }
 
-bool edit_header_parameter(Ui& ui, std::size_t lane, SamplingPolicy& policy, ScreenRect box) {
-  const PolicyParameter* const row = header_parameter(policy);
+bool edit_header_parameter(Ui& ui, std::size_t lane, LaneSettings& settings, ScreenRect box) {
+  const PolicyParameter* const row = header_parameter(settings);
   if (row == nullptr) {
     return false;
   }
@@ -114,7 +114,7 @@ bool edit_header_parameter(Ui& ui, std::size_t lane, SamplingPolicy& policy, Scr
   const float indent = text_width(ui.body, label) + gap;
   text_at(ui.body, box.x, box.y + ui.px(4.0f), palette::dim, label);
   ImGui::SetCursorScreenPos({box.x + indent, box.y});
-  float& value = policy.allocation.*parameter.member;
+  float& value = settings.allocation.*parameter.member;
   const float track = box.width - field - gap - indent;
   bool changed = false;
   if (track >= ui.px(shortest_slider)) {

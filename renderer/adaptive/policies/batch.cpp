@@ -6,11 +6,11 @@ namespace {
 
 /// Rigau, Feixas and Sbert 2003: eight samples everywhere, then eight more wherever the error is
 /// above the threshold, until it is so nowhere.
-void plan_batch(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+void plan_batch(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   if (input.pass == 0) {
-    plan_everywhere(plan, chosen_samples(policy.allocation.first, usual_batch));
+    plan_everywhere(plan, chosen_samples(settings.allocation.first, usual_batch));
   } else {
-    plan_not_done(policy, input, plan, chosen_samples(policy.allocation.batch, usual_batch));
+    plan_not_done(settings, input, plan, chosen_samples(settings.allocation.batch, usual_batch));
   }
 }
 

@@ -7,16 +7,16 @@ namespace {
 /// As production renderers do it: no pixel is looked at before it has a minimum of samples, because
 /// one lucky agreement of few would stop it for good; then batches, also for the neighbours of a
 /// pixel that is not done.
-void plan_converge(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+void plan_converge(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   constexpr std::uint16_t minimum = 16;
   if (input.pass == 0) {
-    plan_everywhere(plan, chosen_samples(policy.allocation.first, minimum));
+    plan_everywhere(plan, chosen_samples(settings.allocation.first, minimum));
     return;
   }
   const auto width = std::size_t(input.width);
-  const std::uint16_t own = chosen_samples(estimator(policy.estimator).look_every, usual_batch);
-  const std::uint16_t batch = chosen_samples(policy.allocation.batch, own);
-  plan_rows(policy, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
+  const std::uint16_t own = chosen_samples(estimator(settings.estimator).look_every, usual_batch);
+  const std::uint16_t batch = chosen_samples(settings.allocation.batch, own);
+  plan_rows(settings, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
     const std::uint8_t* columns = marks.columns(int(y));
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {

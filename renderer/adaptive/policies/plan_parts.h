@@ -30,8 +30,8 @@ inline std::uint32_t sum_of_marks(const std::uint8_t* values, std::size_t count)
 /// The pixels of each row that are not done, kept for as long as rows nearby count them.
 class PlanMarks {
  public:
-  PlanMarks(const SamplingPolicy& policy, const PlanInput& input)
-      : criterion_(policy, input.error, input.taken),
+  PlanMarks(const LaneSettings& settings, const PlanInput& input)
+      : criterion_(settings, input.error, input.taken),
         width_(std::size_t(input.width)),
         height_(input.height),
         marks_(4 * width_ + 2) {}
@@ -79,11 +79,11 @@ class PlanMarks {
 /// Marks and counts the pixels that are not done, and calls row(y, marks, wanted) for each row of
 /// the picture, from several threads.
 template <class Row>
-void plan_rows(const SamplingPolicy& policy, const PlanInput& input, Plan& plan, const Row& row) {
+void plan_rows(const LaneSettings& settings, const PlanInput& input, Plan& plan, const Row& row) {
   const auto width = std::size_t(input.width);
   std::atomic<std::uint64_t> not_done = 0;
   parallel_for(std::size_t(input.height), plan_grain_rows, [&](std::size_t begin, std::size_t end) {
-    PlanMarks marks(policy, input);
+    PlanMarks marks(settings, input);
     marks.mark(int(begin) - 1);
     marks.mark(int(begin));
     std::uint64_t marked = 0;
@@ -110,10 +110,10 @@ inline std::uint16_t chosen_samples(std::uint16_t asked, std::uint16_t otherwise
 }
 
 /// As many samples for every pixel that is not done, none for the others.
-inline void plan_not_done(const SamplingPolicy& policy, const PlanInput& input, Plan& plan,
+inline void plan_not_done(const LaneSettings& settings, const PlanInput& input, Plan& plan,
                           std::uint16_t samples) {
   const auto width = std::size_t(input.width);
-  plan_rows(policy, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
+  plan_rows(settings, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
     const std::uint8_t* row = marks.row(int(y));
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {

@@ -5,12 +5,12 @@ namespace quartet {
 namespace {
 
 /// Mitchell 1987: one sample everywhere, and after a single look eight more where it is needed.
-void plan_two_level(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+void plan_two_level(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   if (input.pass == 0) {
-    plan_everywhere(plan, chosen_samples(policy.allocation.first, 1));
+    plan_everywhere(plan, chosen_samples(settings.allocation.first, 1));
   } else {
-    const std::uint16_t batch = chosen_samples(policy.allocation.batch, usual_batch);
-    plan_not_done(policy, input, plan, input.pass == 1 ? batch : 0);
+    const std::uint16_t batch = chosen_samples(settings.allocation.batch, usual_batch);
+    plan_not_done(settings, input, plan, input.pass == 1 ? batch : 0);
   }
 }
 

@@ -19,17 +19,17 @@ float dither(std::uint32_t pixel, std::uint32_t pass) {
 
 /// The policy of the 2021 report: every pixel that is not done votes for itself and its up to
 /// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
-void plan_vote(const SamplingPolicy& policy, const PlanInput& input, Plan& plan) {
+void plan_vote(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   if (input.pass == 0) {
     plan_everywhere(plan, 1);
     return;
   }
   const auto width = std::size_t(input.width);
-  const float multiplier = policy.allocation.multiplier;
-  plan_rows(policy, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
+  const float multiplier = settings.allocation.multiplier;
+  plan_rows(settings, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
     const std::uint8_t* columns = marks.columns(int(y));
     // Through int, for which there are vectors; it rounds down because no term is negative.
-    if (policy.allocation.stochastic_rounding) {
+    if (settings.allocation.stochastic_rounding) {
       const auto first = std::uint32_t(y * width);
 #pragma omp simd
       for (std::size_t x = 0; x < width; ++x) {

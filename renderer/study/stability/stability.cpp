@@ -21,11 +21,11 @@ constexpr double tuning_share = 0.1;
 struct Stopped {};
 
 /// With its default thresholds.
-SamplingPolicy policy_of(EstimatorId id, const StabilityOptions& options) {
-  SamplingPolicy policy = default_policy(id);
-  policy.allocation.kind = options.allocation;
-  policy.max_spp = std::uint32_t(std::lround(options.spp * maximum_over_budget));
-  return policy;
+LaneSettings settings_of(EstimatorId id, const StabilityOptions& options) {
+  LaneSettings settings = default_settings(id);
+  settings.allocation.kind = options.allocation;
+  settings.max_spp = std::uint32_t(std::lround(options.spp * maximum_over_budget));
+  return settings;
 }
 
 class Study {
@@ -76,10 +76,10 @@ TrialSetup Study::prepare() {
       std::make_shared<const Audit>(sample_source(setup.scene, hidden), hidden.width, hidden.height,
                                     options_.audit_share, options_.audit_samples, hidden.seed);
   advance(truth_share);
-  setup.uniform = default_policy(EstimatorId::uniform);
+  setup.uniform = default_settings(EstimatorId::uniform);
   setup.uniform.max_spp = std::uint32_t(std::lround(options_.spp));
   for (const EstimatorId id : options_.estimators) {
-    setup.usual.push_back(policy_of(id, options_));
+    setup.usual.push_back(settings_of(id, options_));
   }
   tune(setup);
   return setup;
@@ -93,21 +93,21 @@ void Study::tune(TrialSetup& setup) {
   lab.threads = 1;
   Experiment experiment(sample_source(setup.scene, settings), settings.width, settings.height, lab,
                         setup.truth.image);
-  // Every policy of the study ends by itself.
+  // Every lane of the study ends by itself.
   const CommonBudget budget{.passes = std::numeric_limits<std::uint32_t>::max(),
                             .spp = options_.spp};
-  const auto tuned = [&](const SamplingPolicy& policy) {
-    const std::optional<Calibration> found = calibrate(experiment, policy, budget, stop_);
+  const auto tuned = [&](const LaneSettings& settings) {
+    const std::optional<Calibration> found = calibrate(experiment, settings, budget, stop_);
     if (!found) {
       throw Stopped();
     }
-    return found->policy;
+    return found->settings;
   };
   for (std::size_t i = 0; i < setup.usual.size(); ++i) {
     setup.budget.push_back(tuned(setup.usual[i]));
     advance(truth_share + tuning_share * double(i + 1) / double(setup.usual.size() + 1));
   }
-  setup.oracle = tuned(policy_of(EstimatorId::oracle, options_));
+  setup.oracle = tuned(settings_of(EstimatorId::oracle, options_));
   advance(truth_share + tuning_share);
 }
 

@@ -16,8 +16,8 @@ Trials select(const CaseResult& result, EstimatorId estimator, Tuning tuning, Sa
               Variation variation) {
   Trials trials;
   for (const Trial& trial : result.trials) {
-    if (trial.policy.estimator == estimator && trial.tuning == tuning && trial.policy.use == use &&
-        trial.variation == variation) {
+    if (trial.settings.estimator == estimator && trial.tuning == tuning &&
+        trial.settings.use == use && trial.variation == variation) {
       trials[trial.seed] = &trial;
     }
   }
@@ -119,7 +119,7 @@ Cell cell_of(const CaseResult& result, EstimatorId estimator, Tuning tuning, dou
   Cell cell;
   cell.failure = result.failure;
   cell.tuning = tuning;
-  cell.policy = reuse.begin()->second->policy;
+  cell.settings = reuse.begin()->second->settings;
   for (const OutcomeColumn& column : outcome_columns()) {
     cell.values.push_back(mean_interval(values_of(reuse, column.value), p));
   }
@@ -166,7 +166,7 @@ StabilitySummary summarize(std::span<const CaseResult> results, double family) {
   }
   std::vector<EstimatorId> ids;
   for (const Trial& trial : results.front().trials) {
-    const EstimatorId id = trial.policy.estimator;
+    const EstimatorId id = trial.settings.estimator;
     if (id != EstimatorId::uniform && id != EstimatorId::oracle &&
         std::ranges::find(ids, id) == ids.end()) {
       ids.push_back(id);

@@ -30,7 +30,7 @@ struct Change {
 struct Cell {
   const FailureCase* failure = nullptr;
   Tuning tuning{};
-  SamplingPolicy policy;         ///< in mode reuse
+  LaneSettings settings;         ///< in mode reuse
   std::vector<Interval> values;  ///< in mode reuse, in the order of outcome_columns()
   BiasTest picture, region;      ///< in mode reuse
   BiasTest unbiased_picture, unbiased_region;

@@ -27,12 +27,12 @@ constexpr std::uint32_t other_seeds = 2;
 struct Entry {
   Tuning tuning;
   Variation variation;
-  SamplingPolicy policy;
+  LaneSettings settings;
 };
 
-SamplingPolicy in_mode(SamplingPolicy policy, SampleUse use) {
-  policy.use = use;
-  return policy;
+LaneSettings in_mode(LaneSettings settings, SampleUse use) {
+  settings.use = use;
+  return settings;
 }
 
 /// The oracle at the budget, uniform, then each estimator in both tunings and both modes; with
@@ -60,19 +60,19 @@ std::vector<Entry> plain_entries(const TrialSetup& setup, bool thresholds) {
 /// The oracle, then each estimator at the budget, for all radiance × 2.
 std::vector<Entry> exposed_entries(const TrialSetup& setup) {
   std::vector<Entry> entries{{Tuning::budget, Variation::exposure, setup.oracle}};
-  for (const SamplingPolicy& policy : setup.budget) {
-    entries.push_back({Tuning::budget, Variation::exposure, policy});
+  for (const LaneSettings& settings : setup.budget) {
+    entries.push_back({Tuning::budget, Variation::exposure, settings});
   }
   return entries;
 }
 
-std::vector<SamplingPolicy> policies_of(const std::vector<Entry>& entries) {
-  std::vector<SamplingPolicy> policies;
-  policies.reserve(entries.size());
+std::vector<LaneSettings> settings_of_lanes(const std::vector<Entry>& entries) {
+  std::vector<LaneSettings> lane_settings;
+  lane_settings.reserve(entries.size());
   for (const Entry& entry : entries) {
-    policies.push_back(entry.policy);
+    lane_settings.push_back(entry.settings);
   }
-  return policies;
+  return lane_settings;
 }
 
 bool wants_samples(const Lab& lab) {
@@ -81,8 +81,8 @@ bool wants_samples(const Lab& lab) {
 
 Trial trial_of(const TrialSetup& setup, const Entry& entry, std::uint64_t seed, const Lane& lane,
                const Outcome& outcome) {
-  return {setup.failure, entry.tuning, entry.variation, seed,
-          entry.policy,  lane.pass(),  outcome,         rejected_of(lane, seed)};
+  return {setup.failure,  entry.tuning, entry.variation, seed,
+          entry.settings, lane.pass(),  outcome,         rejected_of(lane, seed)};
 }
 
 /// Runs lanes, of which the first is the oracle, to their ends and measures each; appends to
@@ -96,7 +96,7 @@ bool run_entries(const TrialSetup& setup, const std::vector<Entry>& entries,
   options.pilot_source = pilot;
   const int width = setup.settings.width;
   const int height = setup.settings.height;
-  Lab lab(source, width, height, policies_of(entries), options);
+  Lab lab(source, width, height, settings_of_lanes(entries), options);
   const PixelRegion region = pixels_of(setup.failure->region, width, height);
   std::vector<Observation> observations(entries.size(), Observation(truth, region, setup.target));
   const auto observe = [&] {
@@ -158,8 +158,8 @@ RadianceImage shrunk(const RadianceImage& image) {
 bool run_enlarged(const TrialSetup& setup, std::uint64_t seed, const std::stop_token& stop,
                   std::vector<Trial>& trials) {
   std::vector<Entry> entries{{Tuning::budget, Variation::resolution, setup.uniform}};
-  for (const SamplingPolicy& policy : setup.budget) {
-    entries.push_back({Tuning::budget, Variation::resolution, policy});
+  for (const LaneSettings& settings : setup.budget) {
+    entries.push_back({Tuning::budget, Variation::resolution, settings});
   }
   RenderSettings settings = setup.settings;
   settings.seed = seed;
@@ -168,7 +168,7 @@ bool run_enlarged(const TrialSetup& setup, std::uint64_t seed, const std::stop_t
   LabOptions options;
   options.threads = 1;
   Lab lab(sample_source(setup.scene, settings), settings.width, settings.height,
-          policies_of(entries), options);
+          settings_of_lanes(entries), options);
   const bool ended = run_lab(lab, stop, [&] { return wants_samples(lab); });
   const PixelRegion region =
       pixels_of(setup.failure->region, setup.settings.width, setup.settings.height);

@@ -37,7 +37,7 @@ struct Trial {
   Tuning tuning = Tuning::usual;
   Variation variation = Variation::none;
   std::uint64_t seed = 0;
-  SamplingPolicy policy;
+  LaneSettings settings;
   std::uint32_t passes = 0;
   Outcome outcome;
   RejectedSamples rejected;
@@ -50,11 +50,11 @@ struct TrialSetup {
   RenderSettings settings;
   Truth truth;
   std::shared_ptr<const Audit> audit;
-  double target = 0.0;                 ///< squared relative error above which a pixel is wrong
-  SamplingPolicy uniform;              ///< what the others are compared with
-  SamplingPolicy oracle;               ///< at the budget
-  std::vector<SamplingPolicy> usual;   ///< one an estimator
-  std::vector<SamplingPolicy> budget;  ///< the same
+  double target = 0.0;               ///< squared relative error above which a pixel is wrong
+  LaneSettings uniform;              ///< what the others are compared with
+  LaneSettings oracle;               ///< at the budget
+  std::vector<LaneSettings> usual;   ///< one an estimator
+  std::vector<LaneSettings> budget;  ///< the same
 };
 
 /// All trials with the `seed`th seed: the plain experiment, and with the first few seeds its

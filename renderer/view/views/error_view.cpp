@@ -11,7 +11,7 @@ namespace {
 View draw_error(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
   const std::vector<float> scaled = largest_scaled_errors(snapshot.lanes[lane]);
   if (scaled.empty()) {
-    return blank_view(snapshot, estimator(snapshot.lanes[lane].policy.estimator).channels == 0
+    return blank_view(snapshot, estimator(snapshot.lanes[lane].settings.estimator).channels == 0
                                     ? "uniform sampling estimates no error"
                                     : "no pass yet");
   }

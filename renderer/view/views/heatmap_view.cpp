@@ -10,7 +10,7 @@ namespace {
 
 View draw_heatmap(const Snapshot& snapshot, std::size_t lane, const ViewSettings& settings) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
-  const std::uint32_t cap = shown.policy.max_spp;
+  const std::uint32_t cap = shown.settings.max_spp;
   View view;
   view.bar = {heat_scale(snapshot, lane, settings.heat), "", ""};
   if (!shown.history.empty() && shown.history.back().max_spp >= cap) {

@@ -9,9 +9,9 @@ namespace {
 
 View draw_stop_state(const Snapshot& snapshot, std::size_t lane, const ViewSettings&) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
-  const std::uint32_t minimum = minimum_samples(shown.policy);
+  const std::uint32_t minimum = minimum_samples(shown.settings);
   std::string refining(pixel_state_label(PixelState::refining));
-  if (estimator(shown.policy.estimator).channels > 0) {
+  if (estimator(shown.settings.estimator).channels > 0) {
     refining += ": error above its threshold";
     refining += minimum > 0 ? fmt::format(" or below {} spp", minimum) : "";
   }
@@ -20,7 +20,7 @@ View draw_stop_state(const Snapshot& snapshot, std::size_t lane, const ViewSetti
   view.legend = {{{46, 88, 130}, std::string(pixel_state_label(PixelState::done))},
                  {{232, 119, 46}, std::move(refining)},
                  {kCapColor, fmt::format("{} of {} spp", pixel_state_label(PixelState::at_maximum),
-                                         shown.policy.max_spp)}};
+                                         shown.settings.max_spp)}};
   view.image = DisplayImage(snapshot.width, snapshot.height);
   const std::vector<PixelState> states = pixel_states(shown);
   for (std::size_t i = 0; i < states.size(); ++i) {

@@ -92,13 +92,13 @@ void draw_export_form(LabFrame& frame) {
                  ? std::string("the figure of all four lanes")
                  : fmt::format(
                        "lane {}: {}", lane + 1,
-                       estimator(frame.state.request.lanes.policies[std::size_t(lane)].estimator)
+                       estimator(frame.state.request.lanes.settings[std::size_t(lane)].estimator)
                            .label);
     };
     const float width = ui.px(420.0f);
     combo(ui, "export.what", lane_label(form.lane), width, [&] {
       bool changed = false;
-      for (int lane = -1; lane < int(frame.state.request.lanes.policies.size()); ++lane) {
+      for (int lane = -1; lane < int(frame.state.request.lanes.settings.size()); ++lane) {
         if (combo_row(ui, fmt::format("export.what.{}", lane), lane_label(lane),
                       form.lane == lane)) {
           form.lane = lane;

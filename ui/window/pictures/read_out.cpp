@@ -24,7 +24,7 @@ ReadOut read_out(const LabFrame& frame, std::size_t source, glm::ivec2 pixel) {
   const PixelValues values = pixel_values(lane, index);
   const bool known = frame.rejected && frame.rejected->pixel == pixel;
   return {fmt::format("{}, {}   rgb {}", pixel.x, pixel.y, three_numbers(values.radiance)),
-          read_out_texts(estimator(lane.policy.estimator), values,
+          read_out_texts(estimator(lane.settings.estimator), values,
                          known ? std::optional(frame.rejected->index) : std::nullopt)};
 }
 

@@ -1,6 +1,6 @@
-// What can be said of a policy, and that nothing is said in vain.
+// What can be said of lane settings, and that nothing is said in vain.
 
-#include "app/options/policy_options.h"
+#include "app/options/lane_settings_options.h"
 
 #include <gtest/gtest.h>
 
@@ -30,27 +30,27 @@ const std::map<std::string, std::string> value_of_word{
     {"batch", "batch=5"}};
 
 /// The same as an option for all lanes.
-PolicyOptions option_of(const std::string& word) {
+LaneSettingsOptions option_of(const std::string& word) {
   const std::string& text = value_of_word.at(word);
-  const auto row = std::ranges::find(policy_words(), word, &PolicyWord::word);
-  PolicyOptions options;
+  const auto row = std::ranges::find(lane_words(), word, &LaneWord::word);
+  LaneSettingsOptions options;
   EXPECT_EQ(row->read(text.substr(text.find('=') + 1), options), "");
   return options;
 }
 
-std::string error_with(const LaneOptions& lanes, const PolicyOptions& options,
+std::string error_with(const LaneOptions& lanes, const LaneSettingsOptions& options,
                        const StopConditions& stop = {}) {
-  return error_of([&] { policies_of(lanes, options, stop); });
+  return error_of([&] { settings_of_lanes(lanes, options, stop); });
 }
 
-TEST(PolicyOptions, WhatThePolicyDoesNotReadIsRefused) {
+TEST(LaneSettingsOptions, WhatThePolicyDoesNotReadIsRefused) {
   ASSERT_EQ(allocations().size(), read_under.size());
   for (const auto& [policy, reads] : read_under) {
     for (const auto& [word, value] : value_of_word) {
       for (const Estimator& row : estimators()) {
         SCOPED_TRACE(fmt::format("{} under {} with {}", row.id, policy, value));
         const bool read = row.channels > 0 && reads.contains(word);
-        PolicyOptions options = option_of(word);
+        LaneSettingsOptions options = option_of(word);
         options.policy = row.channels > 0 ? policy : "";
         const std::string error = error_with({{std::string(row.id)}, {}}, options);
         EXPECT_EQ(error.empty(), read) << error;
@@ -76,8 +76,8 @@ TEST(PolicyOptions, WhatThePolicyDoesNotReadIsRefused) {
   }
 }
 
-TEST(PolicyOptions, UniformHasNoPolicy) {
-  PolicyOptions options;
+TEST(LaneSettingsOptions, UniformHasNoPolicy) {
+  LaneSettingsOptions options;
   options.policy = "batch";
   EXPECT_NE(error_with({{"uniform"}, {}}, options).find("--policy has no effect"),
             std::string::npos);
@@ -86,7 +86,7 @@ TEST(PolicyOptions, UniformHasNoPolicy) {
   EXPECT_EQ(error_with({{"uniform", "kl"}, {}}, options), "");
 }
 
-TEST(PolicyOptions, OneLaneOfSeveralThatReadsItIsEnough) {
+TEST(LaneSettingsOptions, OneLaneOfSeveralThatReadsItIsEnough) {
   EXPECT_EQ(error_with({{"kl", "cycles"}, {}}, option_of("multiplier")), "");
   EXPECT_EQ(error_with({{"kl", "cycles"}, {}}, option_of("first")), "");
   EXPECT_NE(error_with({{"kl", "chi2"}, {}}, option_of("first")), "");
@@ -97,7 +97,7 @@ TEST(PolicyOptions, OneLaneOfSeveralThatReadsItIsEnough) {
   EXPECT_EQ(error_with({{}, {"kl:multiplier=1", "chi2"}}, option_of("multiplier")), "");
 }
 
-TEST(PolicyOptions, ALaneIsReadWordByWord) {
+TEST(LaneSettingsOptions, ALaneIsReadWordByWord) {
   for (const std::string lane :
        {"kl:multiplier=1,multiplier=2", "kl:mode=reuse,mode=unbiased", "kl:stochastic-rounding=1",
         "kl:multiplier", "kl:max-spp=0", "kl:max-spp=2147483648", "kl:multiplier=1001",
@@ -108,24 +108,24 @@ TEST(PolicyOptions, ALaneIsReadWordByWord) {
   }
 }
 
-TEST(PolicyOptions, AsManySamplesAsAreAskedForCanBeTaken) {
-  const auto most = [](const StopConditions& stop, const PolicyOptions& options = {},
+TEST(LaneSettingsOptions, AsManySamplesAsAreAskedForCanBeTaken) {
+  const auto most = [](const StopConditions& stop, const LaneSettingsOptions& options = {},
                        const std::string& lane = "uniform") {
-    return policies_of({{}, {lane}}, options, stop).front().max_spp;
+    return settings_of_lanes({{}, {lane}}, options, stop).front().max_spp;
   };
-  const std::uint32_t usual = SamplingPolicy().max_spp;
+  const std::uint32_t usual = LaneSettings().max_spp;
   EXPECT_EQ(most({}), usual);
   EXPECT_EQ(most({.spp = usual}), usual);
   EXPECT_EQ(most({.spp = usual + 1.0}), most_spp);
   EXPECT_EQ(most({.passes = usual + 1}), most_spp);
-  PolicyOptions capped;
+  LaneSettingsOptions capped;
   capped.max_spp = 100;
   EXPECT_EQ(most({.passes = usual + 1}, capped), 100u);
   EXPECT_EQ(most({.passes = usual + 1}, {}, "uniform:max-spp=70"), 70u);
 }
 
-TEST(PolicyOptions, ContradictionsAreRefused) {
-  PolicyOptions options;
+TEST(LaneSettingsOptions, ContradictionsAreRefused) {
+  LaneSettingsOptions options;
   options.max_spp = 6;
   EXPECT_NE(error_with({{"kl"}, {}}, options, {.spp = 20.0}).find("--max-spp 6"),
             std::string::npos);
@@ -137,7 +137,7 @@ TEST(PolicyOptions, ContradictionsAreRefused) {
   EXPECT_NE(error_with({{"cycles"}, {}}, options).find("--first-samples 7"), std::string::npos);
 }
 
-TEST(PolicyOptions, WhatIsCappedIsTold) {
+TEST(LaneSettingsOptions, WhatIsCappedIsTold) {
   const TempFolder folder;
   const auto said = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"render", "cornell-box", "--size",
@@ -157,7 +157,7 @@ TEST(PolicyOptions, WhatIsCappedIsTold) {
       "another sample\n");
 }
 
-TEST(PolicyOptions, StudiesTellOfWhatIsCapped) {
+TEST(LaneSettingsOptions, StudiesTellOfWhatIsCapped) {
   const TempFolder folder;
   const std::string capped = "64 of 64 pixels have the 6 samples that --max-spp allows\n";
   for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
