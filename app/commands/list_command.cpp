@@ -31,10 +31,10 @@ ordered_json tables() {
          {"default", std::vector<float>(row.default_thresholds.begin(),
                                         row.default_thresholds.begin() + row.channels)},
          {"default_source", row.threshold_source},
-         {"default_policy", allocation(row.default_allocation).id},
+         {"default_policy", policy(row.default_policy).id},
          {"needs_reference", row.needs_reference}});
   }
-  for (const AllocationRow& row : allocations()) {
+  for (const PolicyRow& row : policies()) {
     json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
   }
   for (const Metric& row : metrics()) {
@@ -75,11 +75,11 @@ void print_tables() {
     if (row.channels > 0) {
       fmt::print("  {:<15} default {}, {}; policy {}\n", "",
                  threshold_text(default_settings(row.key)), row.threshold_source,
-                 allocation(row.default_allocation).id);
+                 policy(row.default_policy).id);
     }
   }
   fmt::print("policies\n");
-  for (const AllocationRow& row : allocations()) {
+  for (const PolicyRow& row : policies()) {
     fmt::print("  {:<15} {}\n", row.id, row.source);
   }
   fmt::print("modes\n");

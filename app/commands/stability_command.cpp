@@ -65,8 +65,8 @@ StabilityOptions options_of(const StabilityCommand& command) {
       options.estimators.push_back(row.key);
     }
   }
-  options.allocation = find_allocation(command.policy).key;
-  if (options.allocation == AllocationId::vote) {
+  options.policy = find_policy(command.policy).key;
+  if (options.policy == PolicyId::vote) {
     throw UsageError(
         "--policy: 'vote' never stops sampling, so that no pixel is ever done; choose batch, "
         "converge or two-level");

@@ -18,7 +18,7 @@ constexpr NumberRange<std::uint32_t> max_spp_range{1, most_spp};
 /// "two-level, batch, converge": those that read a parameter.
 std::string policies_reading(PolicyParameterId parameter) {
   std::string ids;
-  for (const AllocationRow& row : allocations()) {
+  for (const PolicyRow& row : policies()) {
     if (reads(row, parameter)) {
       ids += fmt::format("{}{}", ids.empty() ? "" : ", ", row.id);
     }
@@ -29,8 +29,8 @@ std::string policies_reading(PolicyParameterId parameter) {
 /// "vote, two-level, batch or converge".
 std::string any_policy() {
   std::string ids;
-  for (const AllocationRow& row : allocations()) {
-    const bool last = &row == &allocations().back();
+  for (const PolicyRow& row : policies()) {
+    const bool last = &row == &policies().back();
     ids += fmt::format("{}{}", ids.empty() ? "" : last ? " or " : ", ", row.id);
   }
   return ids;
@@ -49,20 +49,18 @@ LaneWord policy_word() {
       .given = [](const LaneSettingsOptions& options) { return !options.policy.empty(); },
       .read_by =
           [](const LaneSettings& settings) { return estimator(settings.estimator).channels > 0; },
-      .put =
-          [](const LaneSettingsOptions& options, LaneSettings& settings) {
-            settings.allocation.kind = find_allocation(options.policy).key;
-          },
+      .put = [](const LaneSettingsOptions& options,
+                LaneSettings& settings) { settings.policy.kind = find_policy(options.policy).key; },
       .read =
           [](const std::string& value, LaneSettingsOptions& options) {
-            options.policy = find_allocation(value).id;
+            options.policy = find_policy(value).id;
             return std::string();
           },
       .said_of = [](const LaneSettings& settings) -> std::optional<std::string> {
-        if (settings.allocation.kind == estimator(settings.estimator).default_allocation) {
+        if (settings.policy.kind == estimator(settings.estimator).default_policy) {
           return std::nullopt;
         }
-        return std::string(allocation(settings.allocation.kind).id);
+        return std::string(policy(settings.policy.kind).id);
       },
       .add =
           [](CLI::App& command, LaneSettingsOptions& options) {
@@ -134,7 +132,7 @@ LaneWord max_spp_word() {
 // Each kind of parameter as text, as a value in messages, and as an option.
 
 template <class Number>
-std::string read_parameter(const Number& parameter, const std::string& text, Allocation& to) {
+std::string read_parameter(const Number& parameter, const std::string& text, Policy& to) {
   using Value = std::decay_t<decltype(parameter.low)>;
   Value& value = to.*parameter.member;
   const NumberRange<Value> range{parameter.low, parameter.high};
@@ -143,7 +141,7 @@ std::string read_parameter(const Number& parameter, const std::string& text, All
   return number ? "" : out_of_range(text, range);
 }
 
-std::string read_parameter(const FlagParameter& parameter, const std::string&, Allocation& to) {
+std::string read_parameter(const FlagParameter& parameter, const std::string&, Policy& to) {
   to.*parameter.member = true;
   return "";
 }
@@ -162,22 +160,22 @@ const char* value_of(const FlagParameter&) {
 
 template <class Number>
 void add_parameter(CLI::App& command, const Number& parameter, const std::string& option,
-                   const std::string& help, std::function<void(Allocation)> give) {
+                   const std::string& help, std::function<void(Policy)> give) {
   using Value = std::decay_t<decltype(parameter.low)>;
   add_number_words<Value>(command, option, {parameter.low, parameter.high}, help,
                           [parameter, give](const std::vector<Value>& values) {
-                            Allocation given;
+                            Policy given;
                             given.*parameter.member = values.front();
                             give(given);
                           });
 }
 
 void add_parameter(CLI::App& command, const FlagParameter& parameter, const std::string& option,
-                   const std::string& help, std::function<void(Allocation)> give) {
+                   const std::string& help, std::function<void(Policy)> give) {
   command.add_flag_callback(
       option,
       [parameter, give] {
-        Allocation given;
+        Policy given;
         given.*parameter.member = true;
         give(given);
       },
@@ -209,7 +207,7 @@ LaneWord parameter_word(const PolicyParameter& row) {
       .read_by = [&row](const LaneSettings& settings) { return reads(settings, row.key); },
       .put =
           [&row](const LaneSettingsOptions& options, LaneSettings& settings) {
-            copy_parameter(row, options.parameters, settings.allocation);
+            copy_parameter(row, options.parameters, settings.policy);
           },
       .read =
           [&row, visit_value](const std::string& text, LaneSettingsOptions& options) {
@@ -222,15 +220,15 @@ LaneWord parameter_word(const PolicyParameter& row) {
       .said_of =
           [visit_value](const LaneSettings& settings) {
             return visit_value([&](const auto& parameter) -> std::optional<std::string> {
-              const auto value = settings.allocation.*parameter.member;
-              const bool usual = value == Allocation().*parameter.member;
+              const auto value = settings.policy.*parameter.member;
+              const bool usual = value == Policy().*parameter.member;
               return usual && value == decltype(value)() ? std::nullopt
                                                          : std::optional(fmt::format("{}", value));
             });
           },
       .add =
           [&row, visit_value](CLI::App& command, LaneSettingsOptions& options) {
-            const auto give = [&row, &options](const Allocation& given) {
+            const auto give = [&row, &options](const Policy& given) {
               options.given.insert(row.key);
               copy_parameter(row, given, options.parameters);
             };
@@ -255,7 +253,7 @@ std::string runs_text(const LaneSettings& settings) {
   const Estimator& row = estimator(settings.estimator);
   return row.channels == 0
              ? fmt::format("{} estimates no error", row.id)
-             : fmt::format("{} runs under {}", row.id, allocation(settings.allocation.kind).id);
+             : fmt::format("{} runs under {}", row.id, policy(settings.policy.kind).id);
 }
 
 /// What each lane runs under, those of equal lanes once.
@@ -298,9 +296,9 @@ double most_mean_spp(const LaneSettings& settings) {
 
 void check_agreement(std::span<const LaneSettings> lane_settings, const StopConditions& stop) {
   for (const LaneSettings& settings : lane_settings) {
-    if (reads(settings, PolicyParameterId::first) && settings.allocation.first > settings.max_spp) {
+    if (reads(settings, PolicyParameterId::first) && settings.policy.first > settings.max_spp) {
       throw UsageError(fmt::format("--first-samples {}: more than --max-spp {} lets a pixel have",
-                                   settings.allocation.first, settings.max_spp));
+                                   settings.policy.first, settings.max_spp));
     }
   }
   const auto least = std::ranges::max_element(lane_settings, {}, most_mean_spp);

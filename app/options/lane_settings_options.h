@@ -21,7 +21,7 @@ struct LaneSettingsOptions {
   std::string policy;
   std::string mode;
   std::set<PolicyParameterId> given;
-  Allocation parameters;  ///< those that are given
+  Policy parameters;  ///< those that are given
   std::optional<std::uint32_t> max_spp;
 };
 

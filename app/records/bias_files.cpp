@@ -72,10 +72,10 @@ Figure figure_of(const BiasReport& report) {
 std::string csv_of(const BiasReport& report) {
   std::string csv(csv_header);
   for (const BiasRuns& runs : report.runs) {
-    const std::string lane = fmt::format(
-        "{},{},{},{},{}", csv_field(report.run.scene->scene().name),
-        estimator(runs.settings.estimator).id, allocation(runs.settings.allocation.kind).id,
-        sample_use(runs.settings.use).id, thresholds_text(runs.settings));
+    const std::string lane =
+        fmt::format("{},{},{},{},{}", csv_field(report.run.scene->scene().name),
+                    estimator(runs.settings.estimator).id, policy(runs.settings.policy.kind).id,
+                    sample_use(runs.settings.use).id, thresholds_text(runs.settings));
     const double pixels = double(runs.difference.size());
     for (std::size_t k = 0; k < runs.energy.size(); ++k) {
       csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,

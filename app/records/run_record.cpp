@@ -37,10 +37,10 @@ ordered_json lane_settings_json(const LaneSettings& settings) {
   json["thresholds"] =
       std::vector<float>(settings.thresholds.begin(), settings.thresholds.begin() + row.channels);
   json["unit"] = row.unit;
-  json["policy"] = allocation(settings.allocation.kind).id;
+  json["policy"] = policy(settings.policy.kind).id;
   json["mode"] = sample_use(settings.use).id;
   for (const PolicyParameter& parameter : policy_parameters()) {
-    std::visit([&](const auto& value) { json[parameter.id] = settings.allocation.*value.member; },
+    std::visit([&](const auto& value) { json[parameter.id] = settings.policy.*value.member; },
                parameter.value);
   }
   json["max_spp"] = settings.max_spp;
@@ -197,7 +197,7 @@ std::string csv_record(const Snapshot& snapshot) {
     std::string row;
     for (const PassRecord& record : lane.history) {
       row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{},{:.6f}", scene,
-                        estimator(settings.estimator).id, allocation(settings.allocation.kind).id,
+                        estimator(settings.estimator).id, policy(settings.policy.kind).id,
                         sample_use(settings.use).id, thresholds_text(settings),
                         snapshot.settings.seed, record.pass, record.seconds, record.rays,
                         record.samples, mean_spp(record, snapshot.pixels()));

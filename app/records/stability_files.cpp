@@ -27,8 +27,8 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
                             (trial.variation == Variation::resolution ? 4.0 : 1.0);
       const std::string row = fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.0f},{:.6f}", result.failure->id,
-          result.failure->scene, estimator(trial.settings.estimator).id,
-          allocation(options.allocation).id, sample_use(trial.settings.use).id, id_of(trial.tuning),
+          result.failure->scene, estimator(trial.settings.estimator).id, policy(options.policy).id,
+          sample_use(trial.settings.use).id, id_of(trial.tuning),
           variations()[std::size_t(trial.variation)].id, thresholds_text(trial.settings),
           trial.seed, trial.passes, outcome.seconds, outcome.mean_rays * pixels,
           outcome.mean_spp * pixels, outcome.mean_spp);
@@ -49,7 +49,7 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
               const Cell& cell) {
   const std::string row = fmt::format(
       "{},{},{},{},{},{},{:g},{:g}", cell.failure->id, cell.failure->scene,
-      estimator(cell.settings.estimator).id, allocation(options.allocation).id, id_of(cell.tuning),
+      estimator(cell.settings.estimator).id, policy(options.policy).id, id_of(cell.tuning),
       thresholds_text(cell.settings), double(result.truth.spp), result.truth.noise);
   const auto number = [&](std::string_view metric, double value) {
     csv += fmt::format("{},{},{:.9g},,,\n", row, metric, value);
@@ -108,7 +108,7 @@ MatrixFigure matrix_of(const StabilityOptions& options, const StabilitySummary& 
                   "(x − r)² / (r² + 0.01) is above {:g}; it may have {:g} samples at most. Each "
                   "cell is the first verdict of the list whose rule holds, with the number that "
                   "decided; intervals have {:g} % confidence, all together.",
-                  allocation(options.allocation).id, options.seeds, options.target,
+                  policy(options.policy).id, options.seeds, options.target,
                   options.spp * maximum_over_budget, 100.0 * (1.0 - summary.confidence.family))};
   for (const FailureCase* failure : options.cases) {
     figure.rows.push_back(fmt::format("{} ({})", failure->mode, failure->id));

@@ -15,7 +15,7 @@ namespace {
 
 std::string row_head(const SweepReport& report, const LaneSettings& settings, std::uint64_t seed) {
   return fmt::format("{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
-                     estimator(settings.estimator).id, allocation(settings.allocation.kind).id,
+                     estimator(settings.estimator).id, policy(settings.policy.kind).id,
                      sample_use(settings.use).id, thresholds_text(settings), seed);
 }
 

@@ -22,7 +22,7 @@ struct LaneSettings;
 /// maximum cut off, which a higher one would help. An estimator without an error has no pixel done:
 /// all are refining, until they are at the maximum.
 ///
-/// Whether a pixel that is refining gets samples is its allocation's affair.
+/// Whether a pixel that is refining gets samples is its policy's affair.
 enum class PixelState : std::uint8_t {
   done,        ///< no error above its threshold, and not fewer than the minimum of samples
   refining,    ///< not done, and may have more samples

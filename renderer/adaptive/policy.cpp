@@ -4,8 +4,8 @@
 #include <array>
 #include <atomic>
 
-#include "renderer/adaptive/policies/allocation_rows.h"
 #include "renderer/adaptive/policies/plan_parts.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 #include "renderer/base/parallel.h"
 #include "renderer/base/table.h"
 
@@ -15,16 +15,16 @@ namespace {
 // A part's samples are counted in 32 bits.
 constexpr std::size_t part_pixels = 1 << 14;
 
-const AllocationRow* row_of_allocation(AllocationId key) {
+const PolicyRow* row_of_policy(PolicyId key) {
   switch (key) {
-    case AllocationId::vote:
-      return &vote_allocation;
-    case AllocationId::two_level:
-      return &two_level_allocation;
-    case AllocationId::batch:
-      return &batch_allocation;
-    case AllocationId::converge:
-      return &converge_allocation;
+    case PolicyId::vote:
+      return &vote_policy;
+    case PolicyId::two_level:
+      return &two_level_policy;
+    case PolicyId::batch:
+      return &batch_policy;
+    case PolicyId::converge:
+      return &converge_policy;
   }
   return nullptr;
 }
@@ -51,21 +51,21 @@ LaneSettings default_settings(EstimatorId estimator_id) {
   settings.estimator = estimator_id;
   const Estimator& row = estimator(estimator_id);
   settings.thresholds = row.default_thresholds;
-  settings.allocation.kind = row.default_allocation;
+  settings.policy.kind = row.default_policy;
   return settings;
 }
 
-std::span<const AllocationRow> allocations() {
-  static const std::vector<AllocationRow> table = table_of(row_of_allocation);
+std::span<const PolicyRow> policies() {
+  static const std::vector<PolicyRow> table = table_of(row_of_policy);
   return table;
 }
 
-const AllocationRow& allocation(AllocationId key) {
-  return row_of(allocations(), key);
+const PolicyRow& policy(PolicyId key) {
+  return row_of(policies(), key);
 }
 
-const AllocationRow& find_allocation(std::string_view id) {
-  return find_row(allocations(), id, "policy");
+const PolicyRow& find_policy(std::string_view id) {
+  return find_row(policies(), id, "policy");
 }
 
 std::span<const SampleUseRow> sample_uses() {
@@ -88,7 +88,7 @@ void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan)
   if (estimator(settings.estimator).channels == 0) {
     plan_everywhere(plan, 1);  // without an error there is nothing to choose by
   } else {
-    allocation(settings.allocation.kind).plan(settings, input, plan);
+    policy(settings.policy.kind).plan(settings, input, plan);
   }
   std::atomic<std::uint64_t> total = 0;
   parallel_for((pixels + part_pixels - 1) / part_pixels, 1,

@@ -9,23 +9,23 @@
 
 namespace quartet {
 
-enum class AllocationId { vote, two_level, batch, converge };
+enum class PolicyId { vote, two_level, batch, converge };
 
-/// What of an Allocation can be set, beside its kind: policy_parameter.h.
+/// What of a Policy can be set, beside its kind: policy_parameter.h.
 enum class PolicyParameterId { first, batch, multiplier, stochastic_rounding };
 
 /// How errors become sample counts; which parameters matter, the row of its kind says.
-struct Allocation {
-  AllocationId kind = AllocationId::vote;
+struct Policy {
+  PolicyId kind = PolicyId::vote;
   /// All but vote: samples that every pixel gets at first, and that a pixel gets at once later on;
-  /// 0: what the allocation's authors gave, or what the estimator asks for.
+  /// 0: what the policy's authors gave, or what the estimator asks for.
   std::uint16_t first = 0;
   std::uint16_t batch = 0;
   float multiplier = 0.5f;  ///< vote: extra samples a vote
   /// vote: round multiplier · votes up or down at random, so that its mean is kept, rather than
   /// down.
   bool stochastic_rounding = false;
-  bool operator==(const Allocation&) const = default;
+  bool operator==(const Policy&) const = default;
 };
 
 /// What the samples that decide are used for beside.
@@ -43,7 +43,7 @@ enum class SampleUse {
 struct LaneSettings {
   EstimatorId estimator = EstimatorId::contrast;
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
-  Allocation allocation;
+  Policy policy;
   std::uint32_t max_spp = 1u << 16;  ///< at most most_spp
   SampleUse use = SampleUse::reuse;
   bool operator==(const LaneSettings&) const = default;
@@ -52,7 +52,7 @@ struct LaneSettings {
 /// More samples than this no pixel can have: indices of samples are also counted with a sign.
 inline constexpr std::uint32_t most_spp = (1u << 31) - 1;
 
-/// The policy with an estimator's default thresholds and allocation.
+/// Settings with an estimator's default thresholds and policy.
 LaneSettings default_settings(EstimatorId estimator);
 
 /// What a policy sees at the end of a pass.
@@ -75,9 +75,9 @@ struct Plan {
 /// Samples below which no pixel is done, whatever its error: as the estimator has it.
 std::uint32_t minimum_samples(const LaneSettings& settings);
 
-/// One row of the table of allocations.
-struct AllocationRow {
-  AllocationId key;
+/// One row of the table of policies.
+struct PolicyRow {
+  PolicyId key;
   std::string_view id;
   std::string_view label;
   std::string_view source;
@@ -85,10 +85,10 @@ struct AllocationRow {
   void (*plan)(const LaneSettings& settings, const PlanInput& input, Plan& plan);
 };
 
-std::span<const AllocationRow> allocations();
-const AllocationRow& allocation(AllocationId key);
+std::span<const PolicyRow> policies();
+const PolicyRow& policy(PolicyId key);
 /// Throws std::invalid_argument that lists the legal ids.
-const AllocationRow& find_allocation(std::string_view id);
+const PolicyRow& find_policy(std::string_view id);
 
 /// One row of the table of what the samples that decide are used for.
 struct SampleUseRow {
@@ -104,7 +104,7 @@ const SampleUseRow& sample_use(SampleUse key);
 const SampleUseRow& find_sample_use(std::string_view id);
 
 /// Plans the next pass, from nothing but the arguments; `plan` is overwritten. An estimator
-/// without an error gives every pixel one sample, whatever the allocation.
+/// without an error gives every pixel one sample, whatever the policy.
 void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan);
 
 }  // namespace quartet

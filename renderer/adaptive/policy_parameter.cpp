@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "renderer/adaptive/policies/allocation_rows.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 #include "renderer/base/table.h"
 
 namespace quartet {
@@ -34,17 +34,17 @@ const PolicyParameter& policy_parameter(PolicyParameterId key) {
   return row_of(policy_parameters(), key);
 }
 
-void copy_parameter(const PolicyParameter& row, const Allocation& from, Allocation& to) {
+void copy_parameter(const PolicyParameter& row, const Policy& from, Policy& to) {
   std::visit([&](const auto& value) { to.*value.member = from.*value.member; }, row.value);
 }
 
-bool reads(const AllocationRow& row, PolicyParameterId parameter) {
+bool reads(const PolicyRow& row, PolicyParameterId parameter) {
   return std::ranges::find(row.parameters, parameter) != row.parameters.end();
 }
 
 bool reads(const LaneSettings& settings, PolicyParameterId parameter) {
   return estimator(settings.estimator).channels > 0 &&
-         reads(allocation(settings.allocation.kind), parameter);
+         reads(policy(settings.policy.kind), parameter);
 }
 
 }  // namespace quartet

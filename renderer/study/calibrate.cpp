@@ -183,10 +183,10 @@ class Search {
       return fmt::format("no threshold comes nearer than {}", nearest);
     }
     const bool too_much = best_spending_ > 1.0;
-    const std::string_view settings = allocation(settings_.allocation.kind).id;
+    const std::string_view id = policy(settings_.policy.kind).id;
     return budget_.error ? fmt::format("{} passes of {} with {} threshold give {}", budget_.passes,
-                                       settings, too_much ? "the highest" : "the lowest", nearest)
-                         : fmt::format("{} passes of {} take at {} {}", budget_.passes, settings,
+                                       id, too_much ? "the highest" : "the lowest", nearest)
+                         : fmt::format("{} passes of {} take at {} {}", budget_.passes, id,
                                        too_much ? "least" : "most", nearest);
   }
 

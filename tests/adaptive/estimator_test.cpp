@@ -150,7 +150,7 @@ TEST(Estimators, TooFewSamplesAreNotJudged) {
       }
       Plan plan;
       LaneSettings settings = default_settings(row.key);
-      settings.allocation.kind = AllocationId::batch;
+      settings.policy.kind = PolicyId::batch;
       const std::vector<std::uint32_t> taken(6, std::uint32_t(count));
       plan_next(settings, {3, 2, errors, taken, 1}, plan);
       EXPECT_EQ(plan.not_done, looks_at_neighbours(row) ? 0u : 6u);

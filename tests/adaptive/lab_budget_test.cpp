@@ -26,9 +26,9 @@ void run_to(Lab& lab, std::uint32_t passes) {
 /// Takes one sample a pass and is never done; all that it is ahead it takes in its first pass.
 LaneSettings one_a_pass(std::uint16_t first, SampleUse use) {
   LaneSettings settings = default_settings(EstimatorId::contrast);
-  settings.allocation.kind = AllocationId::batch;
-  settings.allocation.first = first;
-  settings.allocation.batch = 1;
+  settings.policy.kind = PolicyId::batch;
+  settings.policy.first = first;
+  settings.policy.batch = 1;
   settings.thresholds = {-1.0f, -1.0f, -1.0f};
   settings.use = use;
   return settings;

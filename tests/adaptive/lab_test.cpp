@@ -23,13 +23,13 @@ std::vector<LaneSettings> all_settings() {
   return lane_settings;
 }
 
-/// Every estimator under every allocation in every mode.
+/// Every estimator under every policy in every mode.
 std::vector<LaneSettings> all_combinations() {
   std::vector<LaneSettings> lane_settings;
   for (LaneSettings settings : all_settings()) {
-    for (const AllocationRow& allocation : allocations()) {
+    for (const PolicyRow& policy : policies()) {
       for (const SampleUseRow& use : sample_uses()) {
-        settings.allocation.kind = allocation.key;
+        settings.policy.kind = policy.key;
         settings.use = use.key;
         lane_settings.push_back(settings);
       }
@@ -134,7 +134,7 @@ TEST(Lab, AReplayIsTheSameAsAFreshRun) {
   for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl, EstimatorId::rigau_kl}) {
     lane_settings.push_back(default_settings(id));
   }
-  lane_settings[2].allocation.kind = AllocationId::vote;
+  lane_settings[2].policy.kind = PolicyId::vote;
   Lab lab = make_lab(lane_settings);
   run(lab, 6);
   const std::uint64_t traced = lab.store().traced();

@@ -62,9 +62,9 @@ LaneSettings with_use(EstimatorId id, SampleUse use) {
 /// Takes 256 samples of each pixel a pass, with next to nothing to estimate and plan.
 LaneSettings reading_settings() {
   LaneSettings settings = default_settings(EstimatorId::contrast);
-  settings.allocation.kind = AllocationId::batch;
-  settings.allocation.first = 256;
-  settings.allocation.batch = 256;
+  settings.policy.kind = PolicyId::batch;
+  settings.policy.first = 256;
+  settings.policy.batch = 256;
   settings.thresholds = {-1.0f, -1.0f, -1.0f};
   return settings;
 }

@@ -87,7 +87,7 @@ struct Decided {
   }
 
   /// What the second pass takes, one pixel at a time.
-  std::uint32_t wanted(AllocationId kind, int x, int y) const {
+  std::uint32_t wanted(PolicyId kind, int x, int y) const {
     const auto pixel = std::size_t(y * width + x);
     const bool refining = !done(pixel);
     const Estimator& row = estimator(settings.estimator);
@@ -95,14 +95,14 @@ struct Decided {
     std::uint32_t samples = 1;
     if (row.channels > 0) {
       switch (kind) {
-        case AllocationId::vote:
-          samples = 1 + std::uint32_t(settings.allocation.multiplier * float(votes(x, y)));
+        case PolicyId::vote:
+          samples = 1 + std::uint32_t(settings.policy.multiplier * float(votes(x, y)));
           break;
-        case AllocationId::two_level:
-        case AllocationId::batch:
+        case PolicyId::two_level:
+        case PolicyId::batch:
           samples = refining ? 8 : 0;
           break;
-        case AllocationId::converge:
+        case PolicyId::converge:
           samples = votes(x, y) > 0 ? own : 0;
           break;
       }
@@ -139,12 +139,12 @@ TEST(PixelState, OfRandomErrorsIsWhatOnePixelAtATimeGives) {
 
 TEST(PixelState, PlansFollowIt) {
   for (const Estimator& row : estimators()) {
-    for (const AllocationRow& allocation : allocations()) {
+    for (const PolicyRow& policy : policies()) {
       for (unsigned seed = 0; seed < 6; ++seed) {
-        SCOPED_TRACE(testing::Message() << row.id << ", " << allocation.id << ", seed " << seed);
+        SCOPED_TRACE(testing::Message() << row.id << ", " << policy.id << ", seed " << seed);
         // More rows than are handed to a thread at a time.
         Decided picture(row.key, 9, 70, seed);
-        picture.settings.allocation.kind = allocation.key;
+        picture.settings.policy.kind = policy.key;
         picture.settings.max_spp += seed % 2 == 0 ? 20 : 0;
         Plan plan;
         plan_next(picture.settings,
@@ -152,7 +152,7 @@ TEST(PixelState, PlansFollowIt) {
         std::uint64_t total = 0;
         for (int y = 0; y < picture.height; ++y) {
           for (int x = 0; x < picture.width; ++x) {
-            const std::uint32_t wanted = picture.wanted(allocation.key, x, y);
+            const std::uint32_t wanted = picture.wanted(policy.key, x, y);
             ASSERT_EQ(plan.wanted[std::size_t(y * picture.width + x)], wanted) << x << ", " << y;
             total += wanted;
           }
@@ -180,7 +180,7 @@ TEST(PixelState, OfALaneIsThatOfItsSnapshot) {
                                             default_settings(EstimatorId::cycles),
                                             default_settings(EstimatorId::uniform)};
   for (LaneSettings& settings : lane_settings) {
-    settings.allocation.kind = AllocationId::vote;
+    settings.policy.kind = PolicyId::vote;
   }
   lane_settings[0].max_spp = 8;
   constexpr int side = 16;

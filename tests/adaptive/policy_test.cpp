@@ -32,7 +32,7 @@ struct Picture {
 
 LaneSettings kl_settings(float multiplier) {
   LaneSettings settings = default_settings(EstimatorId::kl);
-  settings.allocation.multiplier = multiplier;
+  settings.policy.multiplier = multiplier;
   return settings;
 }
 
@@ -109,7 +109,7 @@ TEST(Vote, StochasticRoundingKeepsTheMean) {
   // 6e-5).
   Picture picture(100, 100);
   LaneSettings settings = kl_settings(0.5f);
-  settings.allocation.stochastic_rounding = true;
+  settings.policy.stochastic_rounding = true;
   for (std::size_t y = 1; y < 100; y += 3) {
     for (std::size_t x = 1; x < 100; x += 3) {
       picture.error[100 * y + x] = 1.0f;
@@ -144,16 +144,16 @@ TEST(Vote, UniformNeverAsksForMore) {
             std::vector<std::uint16_t>(16, 1));
 }
 
-LaneSettings kl_settings(AllocationId kind) {
+LaneSettings kl_settings(PolicyId kind) {
   LaneSettings settings = default_settings(EstimatorId::kl);
-  settings.allocation.kind = kind;
+  settings.policy.kind = kind;
   return settings;
 }
 
 using Counts = std::vector<std::uint16_t>;
 
 TEST(TwoLevel, LooksOnce) {
-  const LaneSettings settings = kl_settings(AllocationId::two_level);
+  const LaneSettings settings = kl_settings(PolicyId::two_level);
   Picture picture(3, 1);
   picture.error = {1.0f, 0.0f, 1.0f};
   EXPECT_EQ(picture.plan(settings, 0).wanted, (Counts{1, 1, 1}));
@@ -165,7 +165,7 @@ TEST(TwoLevel, LooksOnce) {
 }
 
 TEST(Batch, GoesOnUntilNoErrorIsAboveTheThreshold) {
-  LaneSettings settings = kl_settings(AllocationId::batch);
+  LaneSettings settings = kl_settings(PolicyId::batch);
   settings.max_spp = 20;
   Picture picture(3, 1);
   picture.taken = {0, 0, 0};
@@ -181,7 +181,7 @@ TEST(Batch, GoesOnUntilNoErrorIsAboveTheThreshold) {
 }
 
 TEST(Converge, GivesTheNeighboursOfAPixelThatIsNotDoneSamplesToo) {
-  const LaneSettings settings = kl_settings(AllocationId::converge);
+  const LaneSettings settings = kl_settings(PolicyId::converge);
   Picture picture(5, 5);
   picture.error[0] = 1.0f;
   EXPECT_EQ(picture.plan(settings, 0).wanted, Counts(25, 16));
@@ -195,38 +195,38 @@ TEST(Converge, GivesTheNeighboursOfAPixelThatIsNotDoneSamplesToo) {
   }
 }
 
-TEST(Tables, WithoutAnErrorAllPixelsAreAlikeUnderEachAllocation) {
-  for (const AllocationRow& row : allocations()) {
+TEST(Tables, WithoutAnErrorAllPixelsAreAlikeUnderEachPolicy) {
+  for (const PolicyRow& row : policies()) {
     LaneSettings settings = default_settings(EstimatorId::uniform);
-    settings.allocation.kind = row.key;
+    settings.policy.kind = row.key;
     Picture picture(4, 4);
     picture.error.clear();
     EXPECT_EQ(picture.plan(settings, 3).wanted, Counts(16, 1)) << row.id;
   }
 }
 
-TEST(Tables, AnAllocationReadsTheParametersThatItsRowSays) {
-  const Allocation unusual{.first = 5, .batch = 5, .multiplier = 0.3f, .stochastic_rounding = true};
-  for (const AllocationRow& row : allocations()) {
+TEST(Tables, APolicyReadsTheParametersThatItsRowSays) {
+  const Policy unusual{.first = 5, .batch = 5, .multiplier = 0.3f, .stochastic_rounding = true};
+  for (const PolicyRow& row : policies()) {
     LaneSettings settings = default_settings(EstimatorId::kl);
-    settings.allocation.kind = row.key;
+    settings.policy.kind = row.key;
     Picture picture(9, 9);
     std::fill(picture.error.begin(), picture.error.end(), 1.0f);
-    const auto plans = [&](const Allocation& allocation) {
+    const auto plans = [&](const Policy& policy) {
       LaneSettings other = settings;
-      other.allocation = allocation;
+      other.policy = policy;
       return std::pair(picture.plan(other, 0).wanted, picture.plan(other, 1).wanted);
     };
-    const auto usual = plans(settings.allocation);
+    const auto usual = plans(settings.policy);
     const auto changes = [&](auto set) {
-      Allocation other = settings.allocation;
+      Policy other = settings.policy;
       set(other);
       return plans(other) != usual;
     };
     SCOPED_TRACE(row.id);
     for (const PolicyParameter& parameter : policy_parameters()) {
       SCOPED_TRACE(parameter.id);
-      EXPECT_EQ(changes([&](Allocation& other) { copy_parameter(parameter, unusual, other); }),
+      EXPECT_EQ(changes([&](Policy& other) { copy_parameter(parameter, unusual, other); }),
                 reads(row, parameter.key));
       EXPECT_EQ(reads(settings, parameter.key), reads(row, parameter.key));
       LaneSettings uniform = settings;
@@ -242,9 +242,9 @@ TEST(Tables, IdsAreUniqueAndFound) {
     EXPECT_EQ(&estimator(row.key), &row);
     EXPECT_FALSE(row.source.empty());
   }
-  for (const AllocationRow& row : allocations()) {
-    EXPECT_EQ(&find_allocation(row.id), &row);
-    EXPECT_EQ(&allocation(row.key), &row);
+  for (const PolicyRow& row : policies()) {
+    EXPECT_EQ(&find_policy(row.id), &row);
+    EXPECT_EQ(&policy(row.key), &row);
   }
   for (const PolicyParameter& row : policy_parameters()) {
     EXPECT_EQ(&policy_parameter(row.key), &row);

@@ -36,9 +36,9 @@ SampleSource bits_of_pixel(int width, int shift) {
 /// A pilot of `first` samples, and up to `most` in all where they differ.
 LaneSettings pilot_settings(std::uint16_t first, std::uint16_t most, SampleUse use) {
   LaneSettings settings = default_settings(EstimatorId::rigau_chi2);
-  settings.allocation.kind = AllocationId::batch;
-  settings.allocation.first = first;
-  settings.allocation.batch = std::uint16_t(most - first);
+  settings.policy.kind = PolicyId::batch;
+  settings.policy.first = first;
+  settings.policy.batch = std::uint16_t(most - first);
   settings.max_spp = most;
   settings.thresholds[0] = 1e-6f;
   settings.use = use;

@@ -9,7 +9,7 @@ namespace {
 
 TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
   for (const Estimator& row : estimators()) {
-    for (const AllocationRow& kind : allocations()) {
+    for (const PolicyRow& kind : policies()) {
       LaneSettings settings = default_settings(row.key);
       for (int c = 0; c < row.channels; ++c) {
         settings.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
@@ -17,14 +17,14 @@ TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
       settings.max_spp = 77;
       settings.use = SampleUse::unbiased;
       LaneSettings all = settings;
-      all.allocation = {kind.key, 4, 12, 0.1f, true};
+      all.policy = {kind.key, 4, 12, 0.1f, true};
       // What is not read is not in the word, and comes back as it is by default.
       if (row.channels > 0) {
-        settings.allocation.kind = kind.key;
+        settings.policy.kind = kind.key;
       }
       for (const PolicyParameter& parameter : policy_parameters()) {
         if (reads(settings, parameter.key)) {
-          copy_parameter(parameter, all.allocation, settings.allocation);
+          copy_parameter(parameter, all.policy, settings.policy);
         }
       }
       LaneSettings read = parse_lane(lane_text(all), {});

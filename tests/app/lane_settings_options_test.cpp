@@ -44,7 +44,7 @@ std::string error_with(const LaneOptions& lanes, const LaneSettingsOptions& opti
 }
 
 TEST(LaneSettingsOptions, WhatThePolicyDoesNotReadIsRefused) {
-  ASSERT_EQ(allocations().size(), read_under.size());
+  ASSERT_EQ(policies().size(), read_under.size());
   for (const auto& [policy, reads] : read_under) {
     for (const auto& [word, value] : value_of_word) {
       for (const Estimator& row : estimators()) {

@@ -78,7 +78,7 @@ BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
 void replay_samples(benchmark::State& state, EstimatorId id) {
   const BenchScene bench("cornell-checker", width, height);
   LaneSettings settings = default_settings(id);
-  settings.allocation.kind = AllocationId::vote;
+  settings.policy.kind = PolicyId::vote;
   Lab lab = bench.lab(std::span(&settings, 1), 1);
   run(lab);
   for (auto _ : state) {

@@ -58,7 +58,7 @@ void read_lane(const std::string& word) {
   for (const float threshold : settings.thresholds) {
     promise(std::isfinite(threshold) && threshold >= 0.0f, "a threshold is none: " + word);
   }
-  const float multiplier = settings.allocation.multiplier;
+  const float multiplier = settings.policy.multiplier;
   promise(std::isfinite(multiplier) && multiplier >= 0.0f, "a multiplier is none: " + word);
   promise(settings.max_spp > 0, "no samples are allowed: " + word);
   const std::string text = lane_text(settings);

@@ -241,7 +241,7 @@ TEST(EstimatorQuality, APixelWithFewerSamplesThanTheMinimumIsNotDone) {
   LaneSettings settings = default_settings(EstimatorId::cycles);
   settings.thresholds[0] =
       100.0f;  // above every error: only the minimum keeps pixels from being done
-  settings.allocation.kind = AllocationId::vote;
+  settings.policy.kind = PolicyId::vote;
   ASSERT_EQ(minimum_samples(settings), 5u);
   Lab lab(half_noise(), 16, 8, std::span(&settings, 1));
   lab.run_pass();

@@ -39,7 +39,7 @@ Snapshot numbered_snapshot() {
 
   LaneSnapshot& contrast = snapshot.lanes[0];
   contrast.settings.thresholds = {0.5f, 0.25f, 0.125f};
-  contrast.settings.allocation = {AllocationId::two_level, 3, 5, 0.75f, true};
+  contrast.settings.policy = {PolicyId::two_level, 3, 5, 0.75f, true};
   contrast.settings.max_spp = 4321;
   contrast.settings.use = SampleUse::unbiased;
   contrast.rejected = {4, 7};
@@ -62,7 +62,7 @@ Snapshot numbered_snapshot() {
   };
   LaneSnapshot& kl = snapshot.lanes[1];
   kl.settings.thresholds = {0.0625f, 0.0f, 0.0f};
-  kl.settings.allocation.kind = AllocationId::batch;
+  kl.settings.policy.kind = PolicyId::batch;
   kl.mean = {{{0.25f, 0.25f}, {0.25f, 0.25f}, {0.25f, 0.25f}}};
   kl.history = {
       {.pass = 3, .samples = 15, .rays = 77, .max_spp = 13, .not_done = 0, .seconds = 2.5}};

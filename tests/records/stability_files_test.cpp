@@ -21,7 +21,7 @@ StabilityOptions counted_options() {
   StabilityOptions options;
   options.cases = {&find_failure_case("two-valued")};
   options.estimators = {EstimatorId::kl};
-  options.allocation = AllocationId::two_level;
+  options.policy = PolicyId::two_level;
   return options;
 }
 

@@ -47,7 +47,7 @@ inline void expect_lines(const std::string& text, const std::vector<std::string>
 inline LaneSettings kl_settings(float threshold, SampleUse use = SampleUse::reuse) {
   LaneSettings settings = default_settings(EstimatorId::kl);
   settings.thresholds[0] = threshold;
-  settings.allocation.kind = AllocationId::converge;
+  settings.policy.kind = PolicyId::converge;
   settings.use = use;
   return settings;
 }

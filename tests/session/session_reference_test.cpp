@@ -149,7 +149,7 @@ TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
   request.lanes.pass = LaneRequest::no_end;
   request.lanes.reference = picture_of(0.5f);
   for (LaneSettings& settings : request.lanes.settings) {
-    settings.allocation.kind = AllocationId::two_level;
+    settings.policy.kind = PolicyId::two_level;
   }
   session.submit(request);
   EXPECT_TRUE(wait_until(

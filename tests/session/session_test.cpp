@@ -165,7 +165,7 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
   LabRequest request = four_lanes();
   request.lanes.pass = LaneRequest::no_end;
   for (LaneSettings& settings : request.lanes.settings) {
-    settings.allocation.kind = AllocationId::two_level;
+    settings.policy.kind = PolicyId::two_level;
   }
   session.submit(request);
   std::shared_ptr<const Snapshot> snapshot;
@@ -181,7 +181,7 @@ TEST(SessionThreads, WithoutAnEndItSleepsOnceNoLaneWantsASample) {
     EXPECT_GE(lane.history.size(), 2u);
   }
   // It can be woken again, and goes on from there.
-  request.lanes.settings[0].allocation.kind = AllocationId::vote;
+  request.lanes.settings[0].policy.kind = PolicyId::vote;
   request.lanes.pass = 6;
   expect_as_headless(session, request);
 }

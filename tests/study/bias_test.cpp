@@ -13,12 +13,12 @@
 namespace quartet {
 namespace {
 
-std::vector<BiasRuns> measure(const char* scene, EstimatorId id, AllocationId kind, float threshold,
+std::vector<BiasRuns> measure(const char* scene, EstimatorId id, PolicyId kind, float threshold,
                               std::uint32_t passes, std::uint32_t seeds) {
   auto made = std::make_shared<const TraceScene>(open_scene(scene));
   RenderSettings settings = default_settings(made->scene());
   LaneSettings lane = default_settings(id);
-  lane.allocation.kind = kind;
+  lane.policy.kind = kind;
   lane.thresholds = {threshold, threshold, threshold};
   lane.max_spp = 64;
   double last = 0.0;
@@ -33,7 +33,7 @@ std::vector<BiasRuns> measure(const char* scene, EstimatorId id, AllocationId ki
 
 // Levels of 1e-4 a test, four tests: false alarms 4e-4 over random seeds; these are fixed.
 TEST(Bias, OfReuseIsFoundAndModeUnbiasedHasNone) {
-  for (const AllocationId kind : {AllocationId::batch, AllocationId::vote}) {
+  for (const PolicyId kind : {PolicyId::batch, PolicyId::vote}) {
     const std::vector<BiasRuns> runs =
         measure("synthetic:bernoulli", EstimatorId::chi2, kind, 0.01f, 8, 8);
     ASSERT_EQ(runs.size(), 2u);
@@ -48,7 +48,7 @@ TEST(Bias, OfReuseIsFoundAndModeUnbiasedHasNone) {
 TEST(Bias, OfWhatDecidesNothingIsExactlyZero) {
   // No error is above this threshold: both modes are uniform sampling, of the same samples.
   const std::vector<BiasRuns> runs =
-      measure("synthetic:log-normal", EstimatorId::kl, AllocationId::vote, 1e30f, 5, 2);
+      measure("synthetic:log-normal", EstimatorId::kl, PolicyId::vote, 1e30f, 5, 2);
   for (const BiasRuns& each : runs) {
     for (const double energy : each.energy) {
       EXPECT_EQ(energy, 0.0);

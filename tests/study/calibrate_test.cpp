@@ -28,7 +28,7 @@ std::vector<LaneSettings> lanes_with_thresholds() {
   for (const Estimator& row : estimators()) {
     if (row.channels > 0) {
       lane_settings.push_back(default_settings(row.key));
-      lane_settings.back().allocation.kind = AllocationId::vote;
+      lane_settings.back().policy.kind = PolicyId::vote;
     }
   }
   return lane_settings;

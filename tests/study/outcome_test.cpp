@@ -78,9 +78,9 @@ void sample_made(int x, int y, std::uint32_t first, std::span<glm::vec3> radianc
 /// Four samples of each pixel, then two more of those that are not done, up to eight.
 LaneSettings made_settings(SampleUse use = SampleUse::reuse) {
   LaneSettings settings = default_settings(EstimatorId::oracle);
-  settings.allocation.kind = AllocationId::batch;
-  settings.allocation.first = 4;
-  settings.allocation.batch = 2;
+  settings.policy.kind = PolicyId::batch;
+  settings.policy.first = 4;
+  settings.policy.batch = 2;
   settings.thresholds[0] = 0.25f;
   settings.max_spp = 8;
   settings.use = use;

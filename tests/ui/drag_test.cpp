@@ -22,7 +22,7 @@ double threshold(LabHand& hand) {
   return double(hand.settings(lane).thresholds[0]);
 }
 double multiplier(LabHand& hand) {
-  return double(hand.settings(2).allocation.multiplier);
+  return double(hand.settings(2).policy.multiplier);
 }
 double exposure(LabHand& hand) {
   return double(hand.state().view.exposure);

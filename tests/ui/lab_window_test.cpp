@@ -119,7 +119,7 @@ TEST(LabWindow, SlidersMoveWhatTheySay) {
     hand.drag(lane_widget(lane, "multiplier"), 40.0f);
     const auto moved = hand.state().request.lanes.settings;
     expect_only(lane, before, moved);
-    EXPECT_NE(moved[lane].allocation.multiplier, before[lane].allocation.multiplier);
+    EXPECT_NE(moved[lane].policy.multiplier, before[lane].policy.multiplier);
     const std::string slider = lane_widget(lane, "threshold0");
     hand.drag(slider, 25.0f);
     expect_only(lane, moved, hand.state().request.lanes.settings);
@@ -178,7 +178,7 @@ TEST(LabWindow, EveryEstimatorOfTheTableCanBeChosenAndBringsItsPolicy) {
   // A policy that was chosen stays.
   hand.choose("lane2.policy", "two-level");
   hand.choose("lane2.estimator", "cycles");
-  EXPECT_EQ(hand.settings(2).allocation.kind, AllocationId::two_level);
+  EXPECT_EQ(hand.settings(2).policy.kind, PolicyId::two_level);
 }
 
 TEST(LabWindow, TheModeComboMakesALaneUnbiased) {

@@ -175,7 +175,7 @@ class Monkey {
         const float threshold = settings.thresholds[std::size_t(c)];
         EXPECT_TRUE(threshold > 0.0f && std::isfinite(threshold)) << threshold;
       }
-      EXPECT_TRUE(std::isfinite(settings.allocation.multiplier));
+      EXPECT_TRUE(std::isfinite(settings.policy.multiplier));
     }
     for (const auto& [name, box] : driver_.window().ui().widgets) {
       EXPECT_TRUE(std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) &&

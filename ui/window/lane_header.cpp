@@ -32,8 +32,8 @@ std::string lane_name(std::size_t lane, const char* what) {
 /// Another estimator brings its thresholds, and its policy unless another than the old one's was
 /// chosen.
 void choose_estimator(const Estimator& row, LaneSettings& settings) {
-  if (settings.allocation.kind == estimator(settings.estimator).default_allocation) {
-    settings.allocation.kind = row.default_allocation;
+  if (settings.policy.kind == estimator(settings.estimator).default_policy) {
+    settings.policy.kind = row.default_policy;
   }
   settings.estimator = row.key;
   settings.thresholds = row.default_thresholds;
@@ -251,7 +251,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
       edit_estimator(ui, lane, edited, has_reference, std::min(first.width, estimator_width));
   tooltip(ui, std::string(estimator(edited.estimator).source));
   if (is_wide(ui, box.width)) {
-    const float policy_width = widest_combo(ui, allocations());
+    const float policy_width = widest_combo(ui, policies());
     const float use_width = widest_combo(ui, sample_uses());
     first.cut_left(estimator_width + gap);
     ImGui::SetCursorScreenPos({first.x, first.y});
@@ -273,7 +273,7 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   } else {
     ScreenRect second = box.cut_top(row);
     // No wider than what they show: the multiplier needs the room.
-    float policy_width = combo_width(ui, allocation(edited.allocation.kind).label);
+    float policy_width = combo_width(ui, policy(edited.policy.kind).label);
     float use_width = combo_width(ui, sample_use(edited.use).label);
     // And in a narrow column its number does.
     const float room = std::max(0.0f, second.width - 1.5f * gap - ui.px(60.0f));

@@ -15,7 +15,7 @@ namespace {
 /// What of a policy stands in the header, as a slider: the first of its parameters that is a real
 /// number; null if it has none. The others are in its menu.
 const PolicyParameter* header_parameter(const LaneSettings& settings) {
-  for (const PolicyParameterId key : allocation(settings.allocation.kind).parameters) {
+  for (const PolicyParameterId key : policy(settings.policy.kind).parameters) {
     const PolicyParameter& row = policy_parameter(key);
     if (std::holds_alternative<RealParameter>(row.value)) {
       return &row;
@@ -27,34 +27,33 @@ const PolicyParameter* header_parameter(const LaneSettings& settings) {
 // A parameter in the menu of the policy. Each returns whether it was changed.
 
 bool edit_value(Ui& ui, const std::string& label, const std::string&,
-                const CountParameter& parameter, Allocation& allocation) {
-  int value = allocation.*parameter.member;
+                const CountParameter& parameter, Policy& policy) {
+  int value = policy.*parameter.member;
   ImGui::SetNextItemWidth(ui.px(110.0f));
   const bool changed = ImGui::InputInt(label.c_str(), &value, 0);
   if (changed) {
-    allocation.*parameter.member =
-        std::uint16_t(std::clamp<int>(value, parameter.low, parameter.high));
+    policy.*parameter.member = std::uint16_t(std::clamp<int>(value, parameter.low, parameter.high));
   }
   return changed;
 }
 
 bool edit_value(Ui& ui, const std::string& label, const std::string& name,
-                const RealParameter& parameter, Allocation& allocation) {
+                const RealParameter& parameter, Policy& policy) {
   ImGui::TextUnformatted(label.c_str());
   ImGui::SameLine();
-  return number_field(ui, name, allocation.*parameter.member, parameter.low, parameter.high, "%.2f",
+  return number_field(ui, name, policy.*parameter.member, parameter.low, parameter.high, "%.2f",
                       ui.px(110.0f));
 }
 
 bool edit_value(Ui&, const std::string& label, const std::string&, const FlagParameter& parameter,
-                Allocation& allocation) {
-  return ImGui::Checkbox(label.c_str(), &(allocation.*parameter.member));
+                Policy& policy) {
+  return ImGui::Checkbox(label.c_str(), &(policy.*parameter.member));
 }
 
 bool edit_parameters(Ui& ui, const std::string& name, LaneSettings& settings) {
   bool changed = false;
   const PolicyParameter* const elsewhere = header_parameter(settings);
-  for (const PolicyParameterId key : allocation(settings.allocation.kind).parameters) {
+  for (const PolicyParameterId key : policy(settings.policy.kind).parameters) {
     const PolicyParameter& row = policy_parameter(key);
     if (&row == elsewhere) {
       continue;
@@ -62,7 +61,7 @@ bool edit_parameters(Ui& ui, const std::string& name, LaneSettings& settings) {
     const std::string row_name = fmt::format("{}.{}", name, row.id);
     std::visit(
         [&](const auto& value) {
-          changed |= edit_value(ui, std::string(row.label), row_name, value, settings.allocation);
+          changed |= edit_value(ui, std::string(row.label), row_name, value, settings.policy);
         },
         row.value);
     ui.mark(row_name);
@@ -75,29 +74,28 @@ bool edit_parameters(Ui& ui, const std::string& name, LaneSettings& settings) {
 
 bool edit_policy(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
   const std::string name = fmt::format("lane{}.policy", lane);
-  const bool chosen =
-      combo(ui, name, std::string(allocation(settings.allocation.kind).label), width, [&] {
-        bool changed = false;
-        for (const AllocationRow& row : allocations()) {
-          if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                        settings.allocation.kind == row.key, std::string(row.source))) {
-            settings.allocation.kind = row.key;
-            changed = true;
-          }
-        }
-        ImGui::Separator();
-        changed |= edit_parameters(ui, name, settings);
-        int cap = int(std::min<std::uint32_t>(settings.max_spp, 1u << 30));
-        ImGui::SetNextItemWidth(ui.px(110.0f));
-        if (ImGui::InputInt("maximum spp", &cap, 0) && cap >= 1) {
-          settings.max_spp = std::uint32_t(cap);
-          changed = true;
-        }
-        ui.mark(name + ".max_spp");
-        return changed;
-      });
+  const bool chosen = combo(ui, name, std::string(policy(settings.policy.kind).label), width, [&] {
+    bool changed = false;
+    for (const PolicyRow& row : policies()) {
+      if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
+                    settings.policy.kind == row.key, std::string(row.source))) {
+        settings.policy.kind = row.key;
+        changed = true;
+      }
+    }
+    ImGui::Separator();
+    changed |= edit_parameters(ui, name, settings);
+    int cap = int(std::min<std::uint32_t>(settings.max_spp, 1u << 30));
+    ImGui::SetNextItemWidth(ui.px(110.0f));
+    if (ImGui::InputInt("maximum spp", &cap, 0) && cap >= 1) {
+      settings.max_spp = std::uint32_t(cap);
+      changed = true;
+    }
+    ui.mark(name + ".max_spp");
+    return changed;
+  });
   tooltip(ui, "How errors become sample counts, by " +
-                  std::string(allocation(settings.allocation.kind).source));
+                  std::string(policy(settings.policy.kind).source));
   return chosen;
 }
 
@@ -114,7 +112,7 @@ bool edit_header_parameter(Ui& ui, std::size_t lane, LaneSettings& settings, Scr
   const float indent = text_width(ui.body, label) + gap;
   text_at(ui.body, box.x, box.y + ui.px(4.0f), palette::dim, label);
   ImGui::SetCursorScreenPos({box.x + indent, box.y});
-  float& value = settings.allocation.*parameter.member;
+  float& value = settings.policy.*parameter.member;
   const float track = box.width - field - gap - indent;
   bool changed = false;
   if (track >= ui.px(shortest_slider)) {

@@ -34,7 +34,7 @@ constexpr Estimator confidence_estimator{
     .channels = 1,
     .default_thresholds = {0.05f, 0.0f, 0.0f},
     .estimate = estimate_confidence,
-    .default_allocation = AllocationId::batch,
+    .default_policy = PolicyId::batch,
     .needs = {.chi2 = true}};
 
 }  // namespace quartet

@@ -24,7 +24,7 @@ enum class EstimatorId {
   uniform,
 };
 
-enum class AllocationId;  // policy.h
+enum class PolicyId;  // policy.h
 
 /// One threshold a channel of the estimator; the rest is not looked at.
 using Thresholds = std::array<float, 3>;
@@ -53,7 +53,7 @@ struct Estimator {
   /// threshold. Null where channels is 0. Runs on the threads of the current TBB arena.
   void (*estimate)(const EstimatorInput& input, std::span<float> error);
   /// The policy that its authors pair it with.
-  AllocationId default_allocation;
+  PolicyId default_policy;
   FilmStatistics needs = {};
   bool needs_reference = false;
   /// Samples below which a pixel is not done, whatever its error; 0 if the error alone decides.

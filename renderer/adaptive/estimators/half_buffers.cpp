@@ -70,7 +70,7 @@ constexpr Estimator half_buffer_estimator{
     .channels = 1,
     .default_thresholds = {0.05f, 0.0f, 0.0f},
     .estimate = estimate_half_buffer,
-    .default_allocation = AllocationId::converge,
+    .default_policy = PolicyId::converge,
     .needs = {.half = SampleHalf::alternate}};
 
 constexpr Estimator cycles_estimator{.key = EstimatorId::cycles,
@@ -82,7 +82,7 @@ constexpr Estimator cycles_estimator{.key = EstimatorId::cycles,
                                      .channels = 1,
                                      .default_thresholds = {0.01f, 0.0f, 0.0f},
                                      .estimate = estimate_cycles,
-                                     .default_allocation = AllocationId::converge,
+                                     .default_policy = PolicyId::converge,
                                      .needs = {.half = SampleHalf::class_a},
                                      .minimum_samples = cycles_minimum,
                                      .look_every = 16};

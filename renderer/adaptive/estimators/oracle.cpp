@@ -31,7 +31,7 @@ constexpr Estimator oracle_estimator{
     .channels = 1,
     .default_thresholds = {1e-4f, 0.0f, 0.0f},
     .estimate = estimate_oracle,
-    .default_allocation = AllocationId::batch,
+    .default_policy = PolicyId::batch,
     .needs_reference = true};
 
 }  // namespace quartet

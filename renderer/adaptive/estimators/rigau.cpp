@@ -39,7 +39,7 @@ constexpr Estimator rigau_kl_estimator{.key = EstimatorId::rigau_kl,
                                        .channels = 1,
                                        .default_thresholds = {0.005f, 0.0f, 0.0f},
                                        .estimate = estimate_rigau_kl,
-                                       .default_allocation = AllocationId::batch,
+                                       .default_policy = PolicyId::batch,
                                        .needs = {.kl = true}};
 
 constexpr Estimator rigau_chi2_estimator{.key = EstimatorId::rigau_chi2,
@@ -51,7 +51,7 @@ constexpr Estimator rigau_chi2_estimator{.key = EstimatorId::rigau_chi2,
                                          .channels = 1,
                                          .default_thresholds = {0.007f, 0.0f, 0.0f},
                                          .estimate = estimate_rigau_chi2,
-                                         .default_allocation = AllocationId::batch,
+                                         .default_policy = PolicyId::batch,
                                          .needs = {.chi2 = true}};
 
 constexpr Estimator rigau_hellinger_estimator{.key = EstimatorId::rigau_hellinger,
@@ -63,7 +63,7 @@ constexpr Estimator rigau_hellinger_estimator{.key = EstimatorId::rigau_hellinge
                                               .channels = 1,
                                               .default_thresholds = {0.003f, 0.0f, 0.0f},
                                               .estimate = estimate_rigau_hellinger,
-                                              .default_allocation = AllocationId::batch,
+                                              .default_policy = PolicyId::batch,
                                               .needs = {.hellinger = true}};
 
 }  // namespace quartet

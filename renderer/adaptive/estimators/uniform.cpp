@@ -12,6 +12,6 @@ constexpr Estimator uniform_estimator{
     .channels = 0,
     .default_thresholds = {},
     .estimate = nullptr,
-    .default_allocation = AllocationId::vote};
+    .default_policy = PolicyId::vote};
 
 }  // namespace quartet

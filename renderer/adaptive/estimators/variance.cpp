@@ -29,7 +29,7 @@ constexpr Estimator variance_estimator{
     .channels = 1,
     .default_thresholds = {1e-4f, 0.0f, 0.0f},
     .estimate = estimate_variance,
-    .default_allocation = AllocationId::batch,
+    .default_policy = PolicyId::batch,
     .needs = {.chi2 = true}};
 
 }  // namespace quartet

@@ -308,7 +308,7 @@ constexpr Estimator contrast_estimator{
     .channels = 3,
     .default_thresholds = {0.4f, 0.3f, 0.6f},
     .estimate = estimate_contrast,
-    .default_allocation = AllocationId::vote};
+    .default_policy = PolicyId::vote};
 
 constexpr Estimator kl_estimator{.key = EstimatorId::kl,
                                  .id = "kl",
@@ -319,7 +319,7 @@ constexpr Estimator kl_estimator{.key = EstimatorId::kl,
                                  .channels = 1,
                                  .default_thresholds = {0.005f, 0.0f, 0.0f},
                                  .estimate = estimate_kl,
-                                 .default_allocation = AllocationId::vote};
+                                 .default_policy = PolicyId::vote};
 
 constexpr Estimator chi2_estimator{.key = EstimatorId::chi2,
                                    .id = "chi2",
@@ -330,7 +330,7 @@ constexpr Estimator chi2_estimator{.key = EstimatorId::chi2,
                                    .channels = 1,
                                    .default_thresholds = {0.007f, 0.0f, 0.0f},
                                    .estimate = estimate_chi2,
-                                   .default_allocation = AllocationId::vote};
+                                   .default_policy = PolicyId::vote};
 
 constexpr Estimator hellinger_estimator{.key = EstimatorId::hellinger,
                                         .id = "hellinger",
@@ -341,6 +341,6 @@ constexpr Estimator hellinger_estimator{.key = EstimatorId::hellinger,
                                         .channels = 1,
                                         .default_thresholds = {0.003f, 0.0f, 0.0f},
                                         .estimate = estimate_hellinger,
-                                        .default_allocation = AllocationId::vote};
+                                        .default_policy = PolicyId::vote};
 
 }  // namespace quartet

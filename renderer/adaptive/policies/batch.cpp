@@ -1,5 +1,5 @@
-#include "renderer/adaptive/policies/allocation_rows.h"
 #include "renderer/adaptive/policies/plan_parts.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 
 namespace quartet {
 namespace {
@@ -8,16 +8,16 @@ namespace {
 /// above the threshold, until it is so nowhere.
 void plan_batch(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   if (input.pass == 0) {
-    plan_everywhere(plan, chosen_samples(settings.allocation.first, usual_batch));
+    plan_everywhere(plan, chosen_samples(settings.policy.first, usual_batch));
   } else {
-    plan_not_done(settings, input, plan, chosen_samples(settings.allocation.batch, usual_batch));
+    plan_not_done(settings, input, plan, chosen_samples(settings.policy.batch, usual_batch));
   }
 }
 
 }  // namespace
 
-constexpr AllocationRow batch_allocation{
-    .key = AllocationId::batch,
+constexpr PolicyRow batch_policy{
+    .key = PolicyId::batch,
     .id = "batch",
     .label = "batch",
     .source = "Rigau, Feixas and Sbert 2003: 8 everywhere, then 8 more until done",

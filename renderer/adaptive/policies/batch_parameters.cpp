@@ -1,4 +1,4 @@
-#include "renderer/adaptive/policies/allocation_rows.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 
 namespace quartet {
 namespace {
@@ -14,7 +14,7 @@ constexpr PolicyParameter first_parameter{
     .label = "first samples",
     .help = "samples before the first look; 0: the policy's own",
     .tooltip = as_the_authors,
-    .value = CountParameter{&Allocation::first, 0, 65535}};
+    .value = CountParameter{&Policy::first, 0, 65535}};
 
 constexpr PolicyParameter batch_parameter{
     .key = PolicyParameterId::batch,
@@ -23,6 +23,6 @@ constexpr PolicyParameter batch_parameter{
     .label = "batch samples",
     .help = "samples from one look to the next; 0: the policy's own",
     .tooltip = as_the_authors,
-    .value = CountParameter{&Allocation::batch, 0, 65535}};
+    .value = CountParameter{&Policy::batch, 0, 65535}};
 
 }  // namespace quartet

@@ -1,5 +1,5 @@
-#include "renderer/adaptive/policies/allocation_rows.h"
 #include "renderer/adaptive/policies/plan_parts.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 
 namespace quartet {
 namespace {
@@ -10,12 +10,12 @@ namespace {
 void plan_converge(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   constexpr std::uint16_t minimum = 16;
   if (input.pass == 0) {
-    plan_everywhere(plan, chosen_samples(settings.allocation.first, minimum));
+    plan_everywhere(plan, chosen_samples(settings.policy.first, minimum));
     return;
   }
   const auto width = std::size_t(input.width);
   const std::uint16_t own = chosen_samples(estimator(settings.estimator).look_every, usual_batch);
-  const std::uint16_t batch = chosen_samples(settings.allocation.batch, own);
+  const std::uint16_t batch = chosen_samples(settings.policy.batch, own);
   plan_rows(settings, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
     const std::uint8_t* columns = marks.columns(int(y));
 #pragma omp simd
@@ -28,8 +28,8 @@ void plan_converge(const LaneSettings& settings, const PlanInput& input, Plan& p
 
 }  // namespace
 
-constexpr AllocationRow converge_allocation{
-    .key = AllocationId::converge,
+constexpr PolicyRow converge_policy{
+    .key = PolicyId::converge,
     .id = "converge",
     .label = "converge",
     .source = "production renderers: 16 everywhere, then 8 more around each pixel not done",

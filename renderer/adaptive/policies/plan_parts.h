@@ -12,7 +12,7 @@
 
 namespace quartet {
 
-// What the plans of allocations are made of.
+// What plans are made of.
 
 /// Rows handed to one thread at a time; a smaller piece costs more to hand out than it gains.
 inline constexpr std::size_t plan_grain_rows = 32;
@@ -101,7 +101,7 @@ inline void plan_everywhere(Plan& plan, std::uint16_t samples) {
   std::fill(plan.wanted.begin(), plan.wanted.end(), samples);
 }
 
-/// What most policies give a pixel at once: one pass of the sampler's stratification.
+/// What most policies give a pixel at once: one round of the sampler's stratification.
 inline constexpr std::uint16_t usual_batch = 8;
 
 /// Of a parameter that is 0 where it is left to the policy.

@@ -1,5 +1,5 @@
-#include "renderer/adaptive/policies/allocation_rows.h"
 #include "renderer/adaptive/policies/plan_parts.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 
 namespace quartet {
 namespace {
@@ -7,17 +7,17 @@ namespace {
 /// Mitchell 1987: one sample everywhere, and after a single look eight more where it is needed.
 void plan_two_level(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   if (input.pass == 0) {
-    plan_everywhere(plan, chosen_samples(settings.allocation.first, 1));
+    plan_everywhere(plan, chosen_samples(settings.policy.first, 1));
   } else {
-    const std::uint16_t batch = chosen_samples(settings.allocation.batch, usual_batch);
+    const std::uint16_t batch = chosen_samples(settings.policy.batch, usual_batch);
     plan_not_done(settings, input, plan, input.pass == 1 ? batch : 0);
   }
 }
 
 }  // namespace
 
-constexpr AllocationRow two_level_allocation{
-    .key = AllocationId::two_level,
+constexpr PolicyRow two_level_policy{
+    .key = PolicyId::two_level,
     .id = "two-level",
     .label = "two-level",
     .source = "Mitchell 1987: 1 sample everywhere, then once 8 more",

@@ -1,7 +1,7 @@
 #include <array>
 
-#include "renderer/adaptive/policies/allocation_rows.h"
 #include "renderer/adaptive/policies/plan_parts.h"
+#include "renderer/adaptive/policies/policy_rows.h"
 
 namespace quartet {
 namespace {
@@ -25,11 +25,11 @@ void plan_vote(const LaneSettings& settings, const PlanInput& input, Plan& plan)
     return;
   }
   const auto width = std::size_t(input.width);
-  const float multiplier = settings.allocation.multiplier;
+  const float multiplier = settings.policy.multiplier;
   plan_rows(settings, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
     const std::uint8_t* columns = marks.columns(int(y));
     // Through int, for which there are vectors; it rounds down because no term is negative.
-    if (settings.allocation.stochastic_rounding) {
+    if (settings.policy.stochastic_rounding) {
       const auto first = std::uint32_t(y * width);
 #pragma omp simd
       for (std::size_t x = 0; x < width; ++x) {
@@ -50,7 +50,7 @@ void plan_vote(const LaneSettings& settings, const PlanInput& input, Plan& plan)
 constexpr std::array vote_parameters{PolicyParameterId::multiplier,
                                      PolicyParameterId::stochastic_rounding};
 
-static_assert(Allocation().multiplier == 0.5f, "the help says so");
+static_assert(Policy().multiplier == 0.5f, "the help says so");
 
 }  // namespace
 
@@ -65,7 +65,7 @@ constexpr PolicyParameter multiplier_parameter{
     .tooltip =
         "Extra samples for each vote, rounded down. 1 is the text of the 2021 report, 0.5 "
         "its pictures.",
-    .value = RealParameter{&Allocation::multiplier, 0.0f, 1000.0f, 2.0f}};
+    .value = RealParameter{&Policy::multiplier, 0.0f, 1000.0f, 2.0f}};
 
 constexpr PolicyParameter stochastic_rounding_parameter{
     .key = PolicyParameterId::stochastic_rounding,
@@ -76,13 +76,13 @@ constexpr PolicyParameter stochastic_rounding_parameter{
     .tooltip =
         "Round multiplier × votes up or down at random, so that its mean is kept, rather "
         "than down as the report does.",
-    .value = FlagParameter{&Allocation::stochastic_rounding}};
+    .value = FlagParameter{&Policy::stochastic_rounding}};
 
-constexpr AllocationRow vote_allocation{.key = AllocationId::vote,
-                                        .id = "vote",
-                                        .label = "vote",
-                                        .source = "the 2021 course report",
-                                        .parameters = vote_parameters,
-                                        .plan = plan_vote};
+constexpr PolicyRow vote_policy{.key = PolicyId::vote,
+                                .id = "vote",
+                                .label = "vote",
+                                .source = "the 2021 course report",
+                                .parameters = vote_parameters,
+                                .plan = plan_vote};
 
 }  // namespace quartet

@@ -23,7 +23,7 @@ struct Stopped {};
 /// With its default thresholds.
 LaneSettings settings_of(EstimatorId id, const StabilityOptions& options) {
   LaneSettings settings = default_settings(id);
-  settings.allocation.kind = options.allocation;
+  settings.policy.kind = options.policy;
   settings.max_spp = std::uint32_t(std::lround(options.spp * maximum_over_budget));
   return settings;
 }
