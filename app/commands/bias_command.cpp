@@ -35,7 +35,7 @@ void print_table(const BiasReport& report) {
              fmt::format("energy ({:g} % interval)", 100.0 * report.confidence), "p");
   for (const BiasRuns& runs : all) {
     fmt::print("{:<16} {:<9} {:>9.2f} {:>9.3f}  {:<26} {:>9.2g}\n",
-               estimator(runs.settings.estimator).id, sample_use(runs.settings.use).id,
+               estimator(runs.settings.estimator).id, sample_mode(runs.settings.mode).id,
                mean_of(runs.mean_spp), mean_of(runs.seconds), energy_text(report, runs),
                mean_p(runs.energy, 0.0));
   }

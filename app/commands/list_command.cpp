@@ -44,7 +44,7 @@ ordered_json tables() {
                                {"definition", row.definition},
                                {"higher_is_better", row.higher_is_better}});
   }
-  for (const SampleUseRow& row : sample_uses()) {
+  for (const SampleModeRow& row : sample_modes()) {
     json["modes"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
   }
   for (const Integrator& row : integrators()) {
@@ -83,7 +83,7 @@ void print_tables() {
     fmt::print("  {:<15} {}\n", row.id, row.source);
   }
   fmt::print("modes\n");
-  for (const SampleUseRow& row : sample_uses()) {
+  for (const SampleModeRow& row : sample_modes()) {
     fmt::print("  {:<15} {}\n", row.id, row.source);
   }
   fmt::print("metrics (x test, r reference)\n");

@@ -79,17 +79,17 @@ LaneWord mode_word() {
           .given = [](const LaneSettingsOptions& options) { return !options.mode.empty(); },
           .read_by = always,
           .put = [](const LaneSettingsOptions& options,
-                    LaneSettings& settings) { settings.use = find_sample_use(options.mode).key; },
+                    LaneSettings& settings) { settings.mode = find_sample_mode(options.mode).key; },
           .read =
               [](const std::string& value, LaneSettingsOptions& options) {
-                options.mode = find_sample_use(value).id;
+                options.mode = find_sample_mode(value).id;
                 return std::string();
               },
           .said_of = [](const LaneSettings& settings) -> std::optional<std::string> {
-            if (settings.use == LaneSettings().use) {
+            if (settings.mode == LaneSettings().mode) {
               return std::nullopt;
             }
-            return std::string(sample_use(settings.use).id);
+            return std::string(sample_mode(settings.mode).id);
           },
           .add =
               [](CLI::App& command, LaneSettingsOptions& options) {
@@ -291,7 +291,7 @@ void check_word(const LaneWord& row, const LaneSettingsOptions& options,
 
 /// The most samples that the pixels of a lane can have in the mean, those of a pilot included.
 double most_mean_spp(const LaneSettings& settings) {
-  return double(settings.max_spp) * (settings.use == SampleUse::unbiased ? 2.0 : 1.0);
+  return double(settings.max_spp) * (settings.mode == SampleMode::unbiased ? 2.0 : 1.0);
 }
 
 void check_agreement(std::span<const LaneSettings> lane_settings, const StopConditions& stop) {

@@ -58,7 +58,7 @@ Figure figure_of(const BiasReport& report) {
     panel.image = DisplayImage(runs.difference.width(), runs.difference.height());
     apply(runs.difference.pixels(), figure.shared_bar->scale, panel.image.pixels());
     panel.title = fmt::format("{}, {}, {}", estimator(runs.settings.estimator).label,
-                              threshold_text(runs.settings), sample_use(runs.settings.use).id);
+                              threshold_text(runs.settings), sample_mode(runs.settings.mode).id);
     panel.lines = {
         fmt::format("energy {}", energy_text(report, runs)),
         fmt::format("{:.1f} spp, {:.2f} s a run", mean_of(runs.mean_spp), mean_of(runs.seconds))};
@@ -75,7 +75,7 @@ std::string csv_of(const BiasReport& report) {
     const std::string lane =
         fmt::format("{},{},{},{},{}", csv_field(report.run.scene->scene().name),
                     estimator(runs.settings.estimator).id, policy(runs.settings.policy.kind).id,
-                    sample_use(runs.settings.use).id, thresholds_text(runs.settings));
+                    sample_mode(runs.settings.mode).id, thresholds_text(runs.settings));
     const double pixels = double(runs.difference.size());
     for (std::size_t k = 0; k < runs.energy.size(); ++k) {
       csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,
@@ -105,7 +105,7 @@ ExrImage exr_of(const BiasReport& report) {
   std::map<std::string, int> named;
   for (const BiasRuns& runs : report.runs) {
     std::string name = fmt::format("{}.{}", estimator(runs.settings.estimator).id,
-                                   sample_use(runs.settings.use).id);
+                                   sample_mode(runs.settings.mode).id);
     // Several lanes may have the same estimator at other thresholds.
     if (const int before = named[name]++; before > 0) {
       name += fmt::format("-{}", before + 1);

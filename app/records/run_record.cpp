@@ -38,7 +38,7 @@ ordered_json lane_settings_json(const LaneSettings& settings) {
       std::vector<float>(settings.thresholds.begin(), settings.thresholds.begin() + row.channels);
   json["unit"] = row.unit;
   json["policy"] = policy(settings.policy.kind).id;
-  json["mode"] = sample_use(settings.use).id;
+  json["mode"] = sample_mode(settings.mode).id;
   for (const PolicyParameter& parameter : policy_parameters()) {
     std::visit([&](const auto& value) { json[parameter.id] = settings.policy.*value.member; },
                parameter.value);
@@ -113,7 +113,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
       {"seed", std::to_string(snapshot.settings.seed)},
       {"version", std::string(version())},
       {"commandLine", command_line},
-      {"mode", std::string(sample_use(shown.settings.use).id)},
+      {"mode", std::string(sample_mode(shown.settings.mode).id)},
       {"varianceMeaning", "Variance.*: unbiased estimate of the variance of the pixel mean"},
   };
   if (!run.empty()) {
@@ -198,7 +198,7 @@ std::string csv_record(const Snapshot& snapshot) {
     for (const PassRecord& record : lane.history) {
       row = fmt::format("{},{},{},{},{},{},{},{:.6f},{},{},{:.6f}", scene,
                         estimator(settings.estimator).id, policy(settings.policy.kind).id,
-                        sample_use(settings.use).id, thresholds_text(settings),
+                        sample_mode(settings.mode).id, thresholds_text(settings),
                         snapshot.settings.seed, record.pass, record.seconds, record.rays,
                         record.samples, mean_spp(record, snapshot.pixels()));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);

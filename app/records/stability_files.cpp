@@ -28,7 +28,7 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
       const std::string row = fmt::format(
           "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.0f},{:.6f}", result.failure->id,
           result.failure->scene, estimator(trial.settings.estimator).id, policy(options.policy).id,
-          sample_use(trial.settings.use).id, id_of(trial.tuning),
+          sample_mode(trial.settings.mode).id, id_of(trial.tuning),
           variations()[std::size_t(trial.variation)].id, thresholds_text(trial.settings),
           trial.seed, trial.passes, outcome.seconds, outcome.mean_rays * pixels,
           outcome.mean_spp * pixels, outcome.mean_spp);

@@ -16,7 +16,7 @@ namespace {
 std::string row_head(const SweepReport& report, const LaneSettings& settings, std::uint64_t seed) {
   return fmt::format("{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
                      estimator(settings.estimator).id, policy(settings.policy.kind).id,
-                     sample_use(settings.use).id, thresholds_text(settings), seed);
+                     sample_mode(settings.mode).id, thresholds_text(settings), seed);
 }
 
 std::string measurement_head(const SweepReport& report, const LaneSettings& settings,

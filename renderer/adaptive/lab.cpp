@@ -38,10 +38,10 @@ void Lab::check(std::span<const LaneSettings> lane_settings, const RadianceImage
       throw std::invalid_argument(
           fmt::format("estimator '{}' compares with a reference, and there is none", row.id));
     }
-    if (settings.use == SampleUse::unbiased && !options_.pilot_source) {
+    if (settings.mode == SampleMode::unbiased && !options_.pilot_source) {
       throw std::invalid_argument(
           fmt::format("mode '{}' needs samples for its pilot run, and there is no source of them",
-                      sample_use(settings.use).id));
+                      sample_mode(settings.mode).id));
     }
   }
 }
@@ -49,7 +49,7 @@ void Lab::check(std::span<const LaneSettings> lane_settings, const RadianceImage
 /// The store of pilot runs, with the first lane that has one; the two share the memory.
 void Lab::make_pilot() {
   const bool wanted = std::ranges::any_of(
-      lanes_, [](const Lane& lane) { return lane.settings().use == SampleUse::unbiased; });
+      lanes_, [](const Lane& lane) { return lane.settings().mode == SampleMode::unbiased; });
   if (wanted && !pilot_) {
     const std::size_t half = options_.memory / 2;
     pilot_.emplace(Stream{options_.pilot_source,
@@ -63,7 +63,7 @@ LaneStores Lab::stores() const {
 }
 
 bool Lab::takes_from(const Lane& lane, const Stream& stream) const {
-  return &stream == &shown_ || lane.settings().use == SampleUse::unbiased;
+  return &stream == &shown_ || lane.settings().mode == SampleMode::unbiased;
 }
 
 std::uint32_t Lab::pass() const {

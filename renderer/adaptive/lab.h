@@ -21,7 +21,7 @@ struct LabOptions {
   FilmStatistics statistics;                  ///< beside what the estimators need
   /// The truth, for estimators that need it; as large as the picture.
   std::shared_ptr<const RadianceImage> reference;
-  /// Samples with random numbers of their own, for SampleUse::unbiased; see pilot_source().
+  /// Samples with random numbers of their own, for SampleMode::unbiased; see pilot_source().
   SampleSource pilot_source;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /// What the shown film keeps; a pilot keeps what the estimator needs.
 FilmStatistics shown_statistics(const LaneSettings& settings, const LaneInputs& inputs) {
-  return settings.use == SampleUse::unbiased
+  return settings.mode == SampleMode::unbiased
              ? inputs.statistics
              : inputs.statistics | estimator(settings.estimator).needs;
 }
@@ -53,7 +53,7 @@ void Lane::restart(const LaneSettings& settings, const LaneInputs& inputs) {
   const Estimator& row = estimator(settings.estimator);
   reference_ = row.needs_reference ? inputs.reference : nullptr;
   film_.restart(shown_statistics(settings, inputs));
-  if (settings.use == SampleUse::reuse) {
+  if (settings.mode == SampleMode::reuse) {
     pilot_.reset();
   } else if (pilot_) {
     pilot_->restart(row.needs);

@@ -11,7 +11,7 @@
 
 namespace quartet {
 
-/// Where lanes find their samples: the ones that are shown and, for SampleUse::unbiased, those of
+/// Where lanes find their samples: the ones that are shown and, for SampleMode::unbiased, those of
 /// the pilot run.
 struct LaneStores {
   const SampleStore& shown;
@@ -35,7 +35,7 @@ class Lane {
   const LaneSettings& settings() const { return settings_; }
   /// What is shown.
   const Film& film() const { return film_; }
-  /// The film whose errors decide: a pilot of SampleUse::unbiased, or what is shown.
+  /// The film whose errors decide: a pilot of SampleMode::unbiased, or what is shown.
   const Film& deciding_film() const { return pilot_ ? *pilot_ : film_; }
   /// Raw error of the deciding film, channels × pixels; empty before the first pass and for
   /// estimators without one.

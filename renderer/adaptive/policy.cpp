@@ -29,12 +29,13 @@ const PolicyRow* row_of_policy(PolicyId key) {
   return nullptr;
 }
 
-constexpr std::array use_table{
-    SampleUseRow{SampleUse::reuse, "reuse", "reuse",
-                 "the samples that decide are the picture: the 2021 report's way, biased (Kirk and "
-                 "Arvo 1991)"},
-    SampleUseRow{
-        SampleUse::unbiased, "unbiased", "unbiased",
+constexpr std::array mode_table{
+    SampleModeRow{
+        SampleMode::reuse, "reuse", "reuse",
+        "the samples that decide are the picture: the 2021 report's way, biased (Kirk and "
+        "Arvo 1991)"},
+    SampleModeRow{
+        SampleMode::unbiased, "unbiased", "unbiased",
         "a pilot run with another seed decides, and is thrown away: unbiased, at twice the "
         "samples (Kirk and Arvo 1991)"},
 };
@@ -68,16 +69,16 @@ const PolicyRow& find_policy(std::string_view id) {
   return find_row(policies(), id, "policy");
 }
 
-std::span<const SampleUseRow> sample_uses() {
-  return use_table;
+std::span<const SampleModeRow> sample_modes() {
+  return mode_table;
 }
 
-const SampleUseRow& sample_use(SampleUse key) {
-  return row_of(sample_uses(), key);
+const SampleModeRow& sample_mode(SampleMode key) {
+  return row_of(sample_modes(), key);
 }
 
-const SampleUseRow& find_sample_use(std::string_view id) {
-  return find_row(sample_uses(), id, "mode");
+const SampleModeRow& find_sample_mode(std::string_view id) {
+  return find_row(sample_modes(), id, "mode");
 }
 
 void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan) {

@@ -29,7 +29,7 @@ struct Policy {
 };
 
 /// What the samples that decide are used for beside.
-enum class SampleUse {
+enum class SampleMode {
   /// They are the picture. Cheap, and biased: Kirk and Arvo, "Unbiased Sampling Techniques for
   /// Image
   /// Synthesis", SIGGRAPH 1991.
@@ -45,7 +45,7 @@ struct LaneSettings {
   Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
   Policy policy;
   std::uint32_t max_spp = 1u << 16;  ///< at most most_spp
-  SampleUse use = SampleUse::reuse;
+  SampleMode mode = SampleMode::reuse;
   bool operator==(const LaneSettings&) const = default;
 };
 
@@ -91,17 +91,17 @@ const PolicyRow& policy(PolicyId key);
 const PolicyRow& find_policy(std::string_view id);
 
 /// One row of the table of what the samples that decide are used for.
-struct SampleUseRow {
-  SampleUse key;
+struct SampleModeRow {
+  SampleMode key;
   std::string_view id;
   std::string_view label;
   std::string_view source;
 };
 
-std::span<const SampleUseRow> sample_uses();
-const SampleUseRow& sample_use(SampleUse key);
+std::span<const SampleModeRow> sample_modes();
+const SampleModeRow& sample_mode(SampleMode key);
 /// Throws std::invalid_argument that lists the legal ids.
-const SampleUseRow& find_sample_use(std::string_view id);
+const SampleModeRow& find_sample_mode(std::string_view id);
 
 /// Plans the next pass, from nothing but the arguments; `plan` is overwritten. An estimator
 /// without an error gives every pixel one sample, whatever the policy.

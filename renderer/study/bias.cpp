@@ -109,8 +109,8 @@ std::vector<BiasRuns> measure_bias(
     const LabOptions& options, const std::function<void(double)>& progress, std::stop_token stop) {
   std::vector<LaneSettings> lanes;
   for (LaneSettings settings : lane_settings) {
-    for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
-      settings.use = use;
+    for (const SampleMode mode : {SampleMode::reuse, SampleMode::unbiased}) {
+      settings.mode = mode;
       lanes.push_back(settings);
     }
   }

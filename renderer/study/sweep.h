@@ -20,8 +20,9 @@ namespace quartet {
 /// What experiments draw their samples from, seed by seed.
 struct SampleWorld {
   std::function<SampleSource(std::uint64_t seed)> source;
-  std::function<SampleSource(std::uint64_t seed)> pilot;  ///< for SampleUse::unbiased; may be empty
-  std::uint64_t first_seed = 0;                           ///< then the ones that follow
+  std::function<SampleSource(std::uint64_t seed)>
+      pilot;                     ///< for SampleMode::unbiased; may be empty
+  std::uint64_t first_seed = 0;  ///< then the ones that follow
   int width = 0;
   int height = 0;
   LabOptions lab;

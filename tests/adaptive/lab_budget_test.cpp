@@ -24,24 +24,24 @@ void run_to(Lab& lab, std::uint32_t passes) {
 }
 
 /// Takes one sample a pass and is never done; all that it is ahead it takes in its first pass.
-LaneSettings one_a_pass(std::uint16_t first, SampleUse use) {
+LaneSettings one_a_pass(std::uint16_t first, SampleMode mode) {
   LaneSettings settings = default_settings(EstimatorId::contrast);
   settings.policy.kind = PolicyId::batch;
   settings.policy.first = first;
   settings.policy.batch = 1;
   settings.thresholds = {-1.0f, -1.0f, -1.0f};
-  settings.use = use;
+  settings.mode = mode;
   return settings;
 }
 
 TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
   constexpr std::uint16_t ahead = 40;
   constexpr std::uint32_t passes = 150;
-  for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
-    SCOPED_TRACE(sample_use(use).id);
+  for (const SampleMode mode : {SampleMode::reuse, SampleMode::unbiased}) {
+    SCOPED_TRACE(sample_mode(mode).id);
     // The slowest is in the middle.
-    const std::vector<LaneSettings> lane_settings{one_a_pass(ahead, use), one_a_pass(1, use),
-                                                  one_a_pass(ahead / 2, use)};
+    const std::vector<LaneSettings> lane_settings{one_a_pass(ahead, mode), one_a_pass(1, mode),
+                                                  one_a_pass(ahead / 2, mode)};
     LabOptions options;
     options.statistics.variance = true;  // no means, which would be forgotten first
     Lab ample = noisy_lab(lane_settings, options);
@@ -56,7 +56,7 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
     EXPECT_TRUE(tight.store().partial());
     EXPECT_EQ(tight.store().traced(), most) << "none was traced again";
     EXPECT_LT(tight.store().stored(), most / 2);
-    if (use == SampleUse::unbiased) {
+    if (mode == SampleMode::unbiased) {
       EXPECT_TRUE(tight.pilot_store()->partial());
       EXPECT_EQ(tight.pilot_store()->traced(), most);
     }
@@ -69,7 +69,7 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
 
 TEST(LabBudget, APilotIsTracedForTheLanesThatHaveOne) {
   constexpr std::uint32_t passes = 5;
-  Lab lab = noisy_lab({one_a_pass(40, SampleUse::reuse), one_a_pass(2, SampleUse::unbiased)}, {});
+  Lab lab = noisy_lab({one_a_pass(40, SampleMode::reuse), one_a_pass(2, SampleMode::unbiased)}, {});
   run_to(lab, passes);
   EXPECT_EQ(lab.store().traced(), budget_pixels * (40 + passes - 1));
   EXPECT_EQ(lab.pilot_store()->traced(), budget_pixels * (2 + passes - 1));

@@ -28,9 +28,9 @@ std::vector<LaneSettings> all_combinations() {
   std::vector<LaneSettings> lane_settings;
   for (LaneSettings settings : all_settings()) {
     for (const PolicyRow& policy : policies()) {
-      for (const SampleUseRow& use : sample_uses()) {
+      for (const SampleModeRow& mode : sample_modes()) {
         settings.policy.kind = policy.key;
-        settings.use = use.key;
+        settings.mode = mode.key;
         lane_settings.push_back(settings);
       }
     }
@@ -177,7 +177,7 @@ TEST(LabThreads, OneTwoAndEightThreadsGiveTheSame) {
 
 TEST(Lab, AShortMemoryChangesNothingButWork) {
   auto lane_settings = all_settings();
-  lane_settings.back().use = lane_settings.front().use = SampleUse::unbiased;
+  lane_settings.back().mode = lane_settings.front().mode = SampleMode::unbiased;
   Lab ample = make_lab(lane_settings);
   run(ample, 12);
   Lab tight = make_lab(lane_settings, options_with_memory(1));
@@ -300,14 +300,14 @@ TEST(Lab, SecondsGrowWithTheSamplesOfALane) {
 }
 
 TEST(Lab, OneLaneAloneIsChargedForAllThatWasTraced) {
-  for (const SampleUseRow& use : sample_uses()) {
+  for (const SampleModeRow& mode : sample_modes()) {
     LaneSettings settings = default_settings(EstimatorId::kl);
-    settings.use = use.key;
+    settings.mode = mode.key;
     Lab lab = make_lab(std::span(&settings, 1));
     run(lab, 5);
     const double traced =
         lab.store().seconds() + (lab.pilot_store() ? lab.pilot_store()->seconds() : 0.0);
-    EXPECT_NEAR(lab.lanes()[0].history().back().tracing_seconds / traced, 1.0, 1e-9) << use.id;
+    EXPECT_NEAR(lab.lanes()[0].history().back().tracing_seconds / traced, 1.0, 1e-9) << mode.id;
   }
 }
 
@@ -324,7 +324,7 @@ TEST(Lab, RaysAreThoseOfTheSamplesThatALaneTook) {
     run(lab, 5);
     EXPECT_EQ(lab.partial(), memory == std::size_t(1) << 18);
     for (const Lane& lane : lab.lanes()) {
-      if (lane.settings().use != SampleUse::reuse) {
+      if (lane.settings().mode != SampleMode::reuse) {
         EXPECT_GT(lane.history().back().rays, lane.history().back().samples);
         continue;
       }
@@ -346,9 +346,9 @@ TEST(Lab, AllLanesAreChargedByOneTableAfterAThresholdWentAwayAndCameBack) {
   // Lanes in pairs, of which one is dragged; the others rest meanwhile.
   std::vector<LaneSettings> lane_settings;
   for (const EstimatorId id : {EstimatorId::contrast, EstimatorId::kl}) {
-    for (const SampleUseRow& use : sample_uses()) {
+    for (const SampleModeRow& mode : sample_modes()) {
       LaneSettings settings = default_settings(id);
-      settings.use = use.key;
+      settings.mode = mode.key;
       lane_settings.insert(lane_settings.end(), {settings, settings});
     }
   }
@@ -416,7 +416,7 @@ TEST(Lab, AnUnbiasedLaneIsPlannedByItsPilotAlone) {
   LaneSettings settings = default_settings(EstimatorId::kl);
   Lab pilot(cornell_checker(1), width, height, std::span(&settings, 1));
   run(pilot, 6);
-  settings.use = SampleUse::unbiased;
+  settings.mode = SampleMode::unbiased;
   Lab lab = make_lab(std::span(&settings, 1));
   run(lab, 6);
   const Lane& lane = lab.lanes()[0];

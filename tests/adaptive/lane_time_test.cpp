@@ -53,9 +53,9 @@ double tracing_of(const SampleStore& store, std::span<const std::uint32_t> count
   return store.costs().rates().of(work);
 }
 
-LaneSettings with_use(EstimatorId id, SampleUse use) {
+LaneSettings in_mode(EstimatorId id, SampleMode mode) {
   LaneSettings settings = default_settings(id);
-  settings.use = use;
+  settings.mode = mode;
   return settings;
 }
 
@@ -76,11 +76,11 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
   const std::vector<std::uint32_t> plenty(timed_pixels, 64);
   ASSERT_TRUE(shown.require(none, plenty, dear_source(10)));
   ASSERT_TRUE(pilot.require(none, plenty, dear_source(30)));
-  for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
-    SCOPED_TRACE(sample_use(use).id);
-    const bool has_pilot = use == SampleUse::unbiased;
+  for (const SampleMode mode : {SampleMode::reuse, SampleMode::unbiased}) {
+    SCOPED_TRACE(sample_mode(mode).id);
+    const bool has_pilot = mode == SampleMode::unbiased;
     const Stopwatch watch;
-    Lane lane(timed_side, timed_side, with_use(EstimatorId::kl, use), {});
+    Lane lane(timed_side, timed_side, in_mode(EstimatorId::kl, mode), {});
     const LaneStores stores{shown, has_pilot ? &pilot : nullptr};
     double reading = 0.0;
     for (const double take_seconds : {5.0, 7.0, 11.0}) {
@@ -109,10 +109,10 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
 
 TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
   const std::vector<LaneSettings> lane_settings{
-      with_use(EstimatorId::uniform, SampleUse::reuse),
-      with_use(EstimatorId::kl, SampleUse::reuse),
-      with_use(EstimatorId::kl, SampleUse::unbiased),
-      with_use(EstimatorId::contrast, SampleUse::unbiased),
+      in_mode(EstimatorId::uniform, SampleMode::reuse),
+      in_mode(EstimatorId::kl, SampleMode::reuse),
+      in_mode(EstimatorId::kl, SampleMode::unbiased),
+      in_mode(EstimatorId::contrast, SampleMode::unbiased),
   };
   LabOptions options;
   options.pilot_source = dear_source(15);
@@ -133,7 +133,8 @@ TEST(LaneTime, LanesAreChargedWhatTheyTookAndTogetherNoMoreThanPassed) {
     std::vector<std::uint32_t> most(timed_pixels, 0);
     for (std::size_t i = 0; i < timed_pixels; ++i) {
       for (std::size_t lane = 0; lane < lane_settings.size(); ++lane) {
-        const bool takes = store == &lab.store() || lane_settings[lane].use == SampleUse::unbiased;
+        const bool takes =
+            store == &lab.store() || lane_settings[lane].mode == SampleMode::unbiased;
         most[i] = takes ? std::max(most[i], lab.lanes()[lane].taken()[i]) : most[i];
       }
     }

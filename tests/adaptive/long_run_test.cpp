@@ -42,7 +42,7 @@ TEST(LongRun, MemoryStaysWithinTheBudgetOverAHundredThousandPasses) {
   constexpr std::size_t mib = std::size_t(1) << 20;
   LaneSettings reused = default_settings(EstimatorId::uniform);
   LaneSettings unbiased = default_settings(EstimatorId::kl);
-  unbiased.use = SampleUse::unbiased;
+  unbiased.mode = SampleMode::unbiased;
   reused.max_spp = unbiased.max_spp = 1u << 31;
   LabOptions options;
   options.threads = 1;

@@ -15,7 +15,7 @@ TEST(LaneOption, ALaneAsOneWordIsReadBackExactly) {
         settings.thresholds[std::size_t(c)] *= 1.0f / 3.0f;
       }
       settings.max_spp = 77;
-      settings.use = SampleUse::unbiased;
+      settings.mode = SampleMode::unbiased;
       LaneSettings all = settings;
       all.policy = {kind.key, 4, 12, 0.1f, true};
       // What is not read is not in the word, and comes back as it is by default.

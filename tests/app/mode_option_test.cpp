@@ -29,9 +29,9 @@ class ModeOption : public testing::Test {
         "figure",    "cornell-box", "--size",      "20x15",         "--passes", "4",
         "--threads", threads,       "--reference", path("ref.exr"), "--out",    path(out)};
     for (const Estimator& row : estimators()) {
-      for (const SampleUseRow& use : sample_uses()) {
+      for (const SampleModeRow& mode : sample_modes()) {
         words.emplace_back("--lane");
-        words.push_back(fmt::format("{}:mode={}", row.id, use.id));
+        words.push_back(fmt::format("{}:mode={}", row.id, mode.id));
       }
     }
     const Result result = run(words);

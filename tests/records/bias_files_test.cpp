@@ -14,9 +14,9 @@
 namespace quartet {
 namespace {
 
-BiasRuns counted_bias(SampleUse use, float first) {
+BiasRuns counted_bias(SampleMode mode, float first) {
   BiasRuns runs;
-  runs.settings = test::kl_settings(0.25f, use);
+  runs.settings = test::kl_settings(0.25f, mode);
   runs.mean_spp = {first + 1, first + 2};
   runs.mean_rays = {first + 6, first + 8};
   runs.seconds = {first + 3, first + 5};
@@ -38,9 +38,9 @@ BiasRuns counted_bias(SampleUse use, float first) {
 TEST(BiasFiles, EveryColumnAndChannelHoldsItsOwnNumber) {
   const TempFolder folder;
   const auto run = test::tiny_run();
-  const std::vector<BiasRuns> all{counted_bias(SampleUse::reuse, 100),
-                                  counted_bias(SampleUse::unbiased, 200),
-                                  counted_bias(SampleUse::reuse, 300)};
+  const std::vector<BiasRuns> all{counted_bias(SampleMode::reuse, 100),
+                                  counted_bias(SampleMode::unbiased, 200),
+                                  counted_bias(SampleMode::reuse, 300)};
   const BiasReport report{run, all, 6, 0.875, "quartet bias"};
   {
     StagedFiles files(folder.path());

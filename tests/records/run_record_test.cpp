@@ -41,7 +41,7 @@ Snapshot numbered_snapshot() {
   contrast.settings.thresholds = {0.5f, 0.25f, 0.125f};
   contrast.settings.policy = {PolicyId::two_level, 3, 5, 0.75f, true};
   contrast.settings.max_spp = 4321;
-  contrast.settings.use = SampleUse::unbiased;
+  contrast.settings.mode = SampleMode::unbiased;
   contrast.rejected = {4, 7};
   contrast.mean = {{{0.5f, 0.25f}, {0.125f, 1.0f}, {0.75f, 2.0f}}};
   contrast.history = {

@@ -34,7 +34,7 @@ CaseResult counted_case() {
   result.height = 5;
   Trial trial;
   trial.failure = result.failure;
-  trial.settings = test::kl_settings(0.25f, SampleUse::unbiased);
+  trial.settings = test::kl_settings(0.25f, SampleMode::unbiased);
   trial.tuning = Tuning::budget;
   trial.variation = Variation::exposure;
   trial.seed = 3;

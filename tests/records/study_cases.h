@@ -44,11 +44,11 @@ inline void expect_lines(const std::string& text, const std::vector<std::string>
   }
 }
 
-inline LaneSettings kl_settings(float threshold, SampleUse use = SampleUse::reuse) {
+inline LaneSettings kl_settings(float threshold, SampleMode mode = SampleMode::reuse) {
   LaneSettings settings = default_settings(EstimatorId::kl);
   settings.thresholds[0] = threshold;
   settings.policy.kind = PolicyId::converge;
-  settings.use = use;
+  settings.mode = mode;
   return settings;
 }
 

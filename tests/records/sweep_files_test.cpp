@@ -31,7 +31,7 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
                     {counted_measurement(1, 30)}};
   for (const std::uint64_t seed : {40, 41}) {
     SweepRun each{
-        .settings = test::kl_settings(0.25f, SampleUse::unbiased), .factor = 2.0, .seed = seed};
+        .settings = test::kl_settings(0.25f, SampleMode::unbiased), .factor = 2.0, .seed = seed};
     each.end = counted_measurement(5, seed == 40 ? 40 : 50);
     each.quality.rank_correlation = seed == 40 ? 0.125 : std::nan("");
     each.quality.stops = {8, 2, seed == 40 ? 3u : 5u};

@@ -98,8 +98,8 @@ TEST(SessionThreads, HundredsOfRapidChangesOfAllKindsEndRight) {
                                       default_settings(EstimatorId::chi2));
         break;
       case 6:
-        changed.lanes.settings[lane].use =
-            sample_uses()[std::size_t(step) % sample_uses().size()].key;
+        changed.lanes.settings[lane].mode =
+            sample_modes()[std::size_t(step) % sample_modes().size()].key;
         break;
       case 7:
         changed.lanes.reference = grey_reference(0.1f * float(step % 4));

@@ -39,9 +39,9 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
   }
   {
     SCOPED_TRACE("a mode");
-    request.lanes.settings[1].use = SampleUse::unbiased;
+    request.lanes.settings[1].mode = SampleMode::unbiased;
     expect_as_headless(session, request);
-    request.lanes.settings[1].use = SampleUse::reuse;
+    request.lanes.settings[1].mode = SampleMode::reuse;
     expect_as_headless(session, request);
     request.lanes.settings[2] = default_settings(EstimatorId::uniform);
     request.lanes.reference.reset();

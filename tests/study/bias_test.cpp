@@ -37,10 +37,10 @@ TEST(Bias, OfReuseIsFoundAndModeUnbiasedHasNone) {
     const std::vector<BiasRuns> runs =
         measure("synthetic:bernoulli", EstimatorId::chi2, kind, 0.01f, 8, 8);
     ASSERT_EQ(runs.size(), 2u);
-    EXPECT_EQ(runs[0].settings.use, SampleUse::reuse);
+    EXPECT_EQ(runs[0].settings.mode, SampleMode::reuse);
     EXPECT_LT(mean_p(runs[0].energy, 0.0), 1e-4);
     EXPECT_LT(mean_interval(runs[0].energy, 1e-4).high, 0.0);
-    EXPECT_EQ(runs[1].settings.use, SampleUse::unbiased);
+    EXPECT_EQ(runs[1].settings.mode, SampleMode::unbiased);
     EXPECT_GT(mean_p(runs[1].energy, 0.0), 1e-4);
   }
 }
@@ -56,7 +56,7 @@ TEST(Bias, OfWhatDecidesNothingIsExactlyZero) {
     for (const float difference : each.difference.pixels()) {
       EXPECT_EQ(difference, 0.0f);
     }
-    EXPECT_EQ(each.mean_spp.front(), each.settings.use == SampleUse::reuse ? 5.0 : 10.0);
+    EXPECT_EQ(each.mean_spp.front(), each.settings.mode == SampleMode::reuse ? 5.0 : 10.0);
     // Variance e − 1 over five samples, in 18 432 numbers of two seeds each with a heavy tail.
     EXPECT_NEAR(each.noise, (std::exp(1.0) - 1.0) / 5.0, 0.06);
   }
@@ -77,7 +77,7 @@ SeedPictures pictures_of(const std::shared_ptr<const TraceScene>& scene, RenderS
   const SampleSource source = sample_source(scene, settings);
   SeedPictures pictures;
   for (std::size_t mode = 0; mode < 2; ++mode) {
-    lane.use = mode == 0 ? SampleUse::reuse : SampleUse::unbiased;
+    lane.mode = mode == 0 ? SampleMode::reuse : SampleMode::unbiased;
     LabOptions options;
     options.pilot_source = pilot_source(scene, settings);
     Lab lab(source, settings.width, settings.height, std::span(&lane, 1), options);

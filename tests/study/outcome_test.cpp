@@ -76,14 +76,14 @@ void sample_made(int x, int y, std::uint32_t first, std::span<glm::vec3> radianc
 }
 
 /// Four samples of each pixel, then two more of those that are not done, up to eight.
-LaneSettings made_settings(SampleUse use = SampleUse::reuse) {
+LaneSettings made_settings(SampleMode mode = SampleMode::reuse) {
   LaneSettings settings = default_settings(EstimatorId::oracle);
   settings.policy.kind = PolicyId::batch;
   settings.policy.first = 4;
   settings.policy.batch = 2;
   settings.thresholds[0] = 0.25f;
   settings.max_spp = 8;
-  settings.use = use;
+  settings.mode = mode;
   return settings;
 }
 
@@ -157,7 +157,7 @@ TEST(Outcome, OfALaneByHand) {
 
 TEST(Outcome, OfALaneWithAPilotCountsItsSamplesToo) {
   const Truth truth = made_truth();
-  Lab lab = made_lab(made_settings(SampleUse::unbiased));
+  Lab lab = made_lab(made_settings(SampleMode::unbiased));
   const Outcome outcome = run_to_end(lab, truth);
   EXPECT_DOUBLE_EQ(outcome.mean_spp, 12.0);
   EXPECT_DOUBLE_EQ(outcome.region_spp, 6.4);

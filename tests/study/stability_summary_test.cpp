@@ -28,7 +28,7 @@ Outcome numbered_outcome(double first, std::uint64_t seed) {
 struct Kind {
   EstimatorId estimator;
   Tuning tuning = Tuning::budget;
-  SampleUse use = SampleUse::reuse;
+  SampleMode mode = SampleMode::reuse;
   Variation variation = Variation::none;
 };
 
@@ -42,7 +42,7 @@ void add_trials(CaseResult& result, const Kind& kind, double first, const Change
     trial.variation = kind.variation;
     trial.seed = seed;
     trial.settings = default_settings(kind.estimator);
-    trial.settings.use = kind.use;
+    trial.settings.mode = kind.mode;
     trial.settings.thresholds[0] = kind.tuning == Tuning::usual ? 0.125f : 0.25f;
     trial.outcome = numbered_outcome(first, seed);
     const auto set = [&](double Outcome::*value, Pair pair) {
@@ -69,8 +69,8 @@ void add_uniform(CaseResult& result) {
     outcome.audit = {77.0, 66.0};
   });
   add_trials(result,
-             {EstimatorId::uniform, Tuning::budget, SampleUse::reuse, Variation::resolution}, 600.0,
-             [](Outcome&, const auto& set) {
+             {EstimatorId::uniform, Tuning::budget, SampleMode::reuse, Variation::resolution},
+             600.0, [](Outcome&, const auto& set) {
                set(&Outcome::relmse, {1.5, 0.5});
                set(&Outcome::mean_spp, {64.0, 0.0});
              });
@@ -78,10 +78,10 @@ void add_uniform(CaseResult& result) {
 
 /// kl, tuned to the budget: all modes and variations.
 void add_tuned(CaseResult& result) {
-  const auto kl = [](SampleUse use, Variation variation) {
-    return Kind{EstimatorId::kl, Tuning::budget, use, variation};
+  const auto kl = [](SampleMode mode, Variation variation) {
+    return Kind{EstimatorId::kl, Tuning::budget, mode, variation};
   };
-  add_trials(result, kl(SampleUse::reuse, Variation::none), 100.0,
+  add_trials(result, kl(SampleMode::reuse, Variation::none), 100.0,
              [](Outcome& outcome, const auto& set) {
                set(&Outcome::mean_spp, {16.0, 4.0});
                set(&Outcome::seconds, {3.0, 1.0});
@@ -90,7 +90,7 @@ void add_tuned(CaseResult& result) {
                set(&Outcome::region_energy, {-0.5, 0.25});
                outcome.audit = {20.0, 5.0};
              });
-  add_trials(result, kl(SampleUse::unbiased, Variation::none), 200.0,
+  add_trials(result, kl(SampleMode::unbiased, Variation::none), 200.0,
              [](Outcome& outcome, const auto& set) {
                set(&Outcome::seconds, {7.5, 2.5});
                set(&Outcome::energy, {0.75, 0.25});
@@ -103,7 +103,7 @@ void add_tuned(CaseResult& result) {
         {Variation::threshold_down, Pair{20.0, 2.0}, Pair{8.0, 3.0}},
         {Variation::exposure, Pair{24.0, 8.0}, Pair{40.0, 0.0}},
         {Variation::resolution, Pair{8.0, 1.0}, Pair{1.25, 0.25}}}) {
-    add_trials(result, kl(SampleUse::reuse, variation), first += 10.0,
+    add_trials(result, kl(SampleMode::reuse, variation), first += 10.0,
                [&, cost = cost, error = error](Outcome&, const auto& set) {
                  set(&Outcome::mean_spp, cost);
                  set(&Outcome::relmse, error);
@@ -117,7 +117,7 @@ CaseResult case_of(const char* id, std::uint64_t truth_spp) {
   result.truth.spp = truth_spp;
   // First of all an estimator's own, out of order as they may come.
   add_trials(result, {EstimatorId::kl, Tuning::usual}, 300.0);
-  add_trials(result, {EstimatorId::kl, Tuning::usual, SampleUse::unbiased}, 400.0);
+  add_trials(result, {EstimatorId::kl, Tuning::usual, SampleMode::unbiased}, 400.0);
   add_uniform(result);
   add_tuned(result);
   return result;
@@ -158,7 +158,7 @@ TEST(StabilitySummary, HasACellOfEachCaseEstimatorAndTuning) {
     EXPECT_EQ(cell.failure->id, i < 2 ? "two-valued" : "rare-light");
     EXPECT_EQ(cell.tuning, i % 2 == 0 ? Tuning::usual : Tuning::budget);
     EXPECT_EQ(cell.settings.estimator, EstimatorId::kl);
-    EXPECT_EQ(cell.settings.use, SampleUse::reuse);
+    EXPECT_EQ(cell.settings.mode, SampleMode::reuse);
     EXPECT_EQ(cell.settings.thresholds[0], i % 2 == 0 ? 0.125f : 0.25f);
   }
   EXPECT_TRUE(summarize({}, family).cells.empty());

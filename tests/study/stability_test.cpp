@@ -79,7 +79,8 @@ TEST(Stability, MeetsTheBudgetWithEveryEstimator) {
       run(small({"bernoulli"}, {EstimatorId::contrast, EstimatorId::kl, EstimatorId::chi2}));
   for (const Trial& trial : results.front().trials) {
     if (trial.tuning == Tuning::budget && trial.variation == Variation::none &&
-        trial.settings.use == SampleUse::reuse && trial.settings.estimator != EstimatorId::oracle &&
+        trial.settings.mode == SampleMode::reuse &&
+        trial.settings.estimator != EstimatorId::oracle &&
         trial.settings.estimator != EstimatorId::contrast) {
       EXPECT_NEAR(trial.outcome.mean_spp, 16.0, 2.0) << estimator(trial.settings.estimator).id;
     }

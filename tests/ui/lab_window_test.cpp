@@ -187,7 +187,7 @@ TEST(LabWindow, TheModeComboMakesALaneUnbiased) {
   const Snapshot before = hand.snapshot();
   hand.choose("lane1.mode", "unbiased");
   hand.settle();
-  EXPECT_EQ(hand.settings(1).use, SampleUse::unbiased);
+  EXPECT_EQ(hand.settings(1).mode, SampleMode::unbiased);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const LaneSnapshot& now = hand.snapshot().lanes[lane];
     EXPECT_EQ(now.mean != before.lanes[lane].mean, lane == 1) << lane;

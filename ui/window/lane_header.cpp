@@ -59,21 +59,21 @@ bool edit_estimator(Ui& ui, std::size_t lane, LaneSettings& settings, bool has_r
   });
 }
 
-bool edit_sample_use(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
+bool edit_sample_mode(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
   const std::string name = lane_name(lane, "mode");
-  const bool chosen = combo(ui, name, std::string(sample_use(settings.use).label), width, [&] {
+  const bool chosen = combo(ui, name, std::string(sample_mode(settings.mode).label), width, [&] {
     bool changed = false;
-    for (const SampleUseRow& row : sample_uses()) {
+    for (const SampleModeRow& row : sample_modes()) {
       if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                    settings.use == row.key, std::string(row.source))) {
-        settings.use = row.key;
+                    settings.mode == row.key, std::string(row.source))) {
+        settings.mode = row.key;
         changed = true;
       }
     }
     return changed;
   });
   tooltip(ui, "What becomes of the samples that decide where more are taken: " +
-                  std::string(sample_use(settings.use).source) + ".");
+                  std::string(sample_mode(settings.mode).source) + ".");
   return chosen;
 }
 
@@ -252,14 +252,14 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
   tooltip(ui, std::string(estimator(edited.estimator).source));
   if (is_wide(ui, box.width)) {
     const float policy_width = widest_combo(ui, policies());
-    const float use_width = widest_combo(ui, sample_uses());
+    const float mode_width = widest_combo(ui, sample_modes());
     first.cut_left(estimator_width + gap);
     ImGui::SetCursorScreenPos({first.x, first.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
     first.cut_left(policy_width + gap);
     ImGui::SetCursorScreenPos({first.x, first.y});
-    changed |= edit_sample_use(ui, lane, edited, use_width);
-    first.cut_left(use_width + gap);
+    changed |= edit_sample_mode(ui, lane, edited, mode_width);
+    first.cut_left(mode_width + gap);
     changed |= edit_header_parameter(ui, lane, edited, first.cut_left(ui.px(160.0f)));
     ScreenRect second = box.cut_top(row);
     // Of the usual numbers, not of these: a slider that grew as they change would move under the
@@ -274,18 +274,18 @@ void draw_lane_header(LabFrame& frame, std::size_t lane, ScreenRect box) {
     ScreenRect second = box.cut_top(row);
     // No wider than what they show: the multiplier needs the room.
     float policy_width = combo_width(ui, policy(edited.policy.kind).label);
-    float use_width = combo_width(ui, sample_use(edited.use).label);
+    float mode_width = combo_width(ui, sample_mode(edited.mode).label);
     // And in a narrow column its number does.
     const float room = std::max(0.0f, second.width - 1.5f * gap - ui.px(60.0f));
-    const float share = std::min(1.0f, room / (policy_width + use_width));
+    const float share = std::min(1.0f, room / (policy_width + mode_width));
     policy_width *= share;
-    use_width *= share;
+    mode_width *= share;
     ImGui::SetCursorScreenPos({second.x, second.y});
     changed |= edit_policy(ui, lane, edited, policy_width);
     second.cut_left(policy_width + 0.5f * gap);
     ImGui::SetCursorScreenPos({second.x, second.y});
-    changed |= edit_sample_use(ui, lane, edited, use_width);
-    second.cut_left(use_width + gap);
+    changed |= edit_sample_mode(ui, lane, edited, mode_width);
+    second.cut_left(mode_width + gap);
     changed |= edit_header_parameter(ui, lane, edited, second);
     changed |= edit_thresholds(ui, lane, edited, box.cut_top(row));
     draw_numbers(frame, lane, box, false);

@@ -12,12 +12,12 @@ namespace {
 /// Trials of one kind in one case, by seed.
 using Trials = std::map<std::uint64_t, const Trial*>;
 
-Trials select(const CaseResult& result, EstimatorId estimator, Tuning tuning, SampleUse use,
+Trials select(const CaseResult& result, EstimatorId estimator, Tuning tuning, SampleMode mode,
               Variation variation) {
   Trials trials;
   for (const Trial& trial : result.trials) {
     if (trial.settings.estimator == estimator && trial.tuning == tuning &&
-        trial.settings.use == use && trial.variation == variation) {
+        trial.settings.mode == mode && trial.variation == variation) {
       trials[trial.seed] = &trial;
     }
   }
@@ -44,7 +44,7 @@ double spread_of(const std::vector<double>& values) {
 
 /// What the others are compared with.
 Trials uniform_trials(const CaseResult& result, Variation variation) {
-  return select(result, EstimatorId::uniform, Tuning::budget, SampleUse::reuse, variation);
+  return select(result, EstimatorId::uniform, Tuning::budget, SampleMode::reuse, variation);
 }
 
 /// Where the truth is known exactly the energy is compared with it; else with that of uniform
@@ -111,11 +111,11 @@ Interval audit_of(const Trials& trials, double p, double& audited) {
 }
 
 Cell cell_of(const CaseResult& result, EstimatorId estimator, Tuning tuning, double p) {
-  const auto of = [&](SampleUse use, Variation variation) {
-    return select(result, estimator, tuning, use, variation);
+  const auto of = [&](SampleMode mode, Variation variation) {
+    return select(result, estimator, tuning, mode, variation);
   };
-  const Trials reuse = of(SampleUse::reuse, Variation::none);
-  const Trials unbiased = of(SampleUse::unbiased, Variation::none);
+  const Trials reuse = of(SampleMode::reuse, Variation::none);
+  const Trials unbiased = of(SampleMode::unbiased, Variation::none);
   Cell cell;
   cell.failure = result.failure;
   cell.tuning = tuning;
@@ -135,7 +135,7 @@ Cell cell_of(const CaseResult& result, EstimatorId estimator, Tuning tuning, dou
   cell.error_spread = spread_of(values_of(reuse, &Outcome::relmse));
   for (const VariationRow& row : variations()) {
     if (row.key != Variation::none) {
-      cell.changes[std::size_t(row.key)] = change_of(reuse, of(SampleUse::reuse, row.key));
+      cell.changes[std::size_t(row.key)] = change_of(reuse, of(SampleMode::reuse, row.key));
     }
   }
   if (std::optional<Change>& enlarged = cell.changes[std::size_t(Variation::resolution)]) {

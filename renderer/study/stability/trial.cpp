@@ -30,8 +30,8 @@ struct Entry {
   LaneSettings settings;
 };
 
-LaneSettings in_mode(LaneSettings settings, SampleUse use) {
-  settings.use = use;
+LaneSettings in_mode(LaneSettings settings, SampleMode mode) {
+  settings.mode = mode;
   return settings;
 }
 
@@ -43,9 +43,9 @@ std::vector<Entry> plain_entries(const TrialSetup& setup, bool thresholds) {
       {Tuning::budget, Variation::none, setup.uniform},
   };
   for (std::size_t i = 0; i < setup.usual.size(); ++i) {
-    for (const SampleUse use : {SampleUse::reuse, SampleUse::unbiased}) {
-      entries.push_back({Tuning::usual, Variation::none, in_mode(setup.usual[i], use)});
-      entries.push_back({Tuning::budget, Variation::none, in_mode(setup.budget[i], use)});
+    for (const SampleMode mode : {SampleMode::reuse, SampleMode::unbiased}) {
+      entries.push_back({Tuning::usual, Variation::none, in_mode(setup.usual[i], mode)});
+      entries.push_back({Tuning::budget, Variation::none, in_mode(setup.budget[i], mode)});
     }
     if (thresholds) {
       entries.push_back(

@@ -34,14 +34,14 @@ SampleSource bits_of_pixel(int width, int shift) {
 }
 
 /// A pilot of `first` samples, and up to `most` in all where they differ.
-LaneSettings pilot_settings(std::uint16_t first, std::uint16_t most, SampleUse use) {
+LaneSettings pilot_settings(std::uint16_t first, std::uint16_t most, SampleMode mode) {
   LaneSettings settings = default_settings(EstimatorId::rigau_chi2);
   settings.policy.kind = PolicyId::batch;
   settings.policy.first = first;
   settings.policy.batch = std::uint16_t(most - first);
   settings.max_spp = most;
   settings.thresholds[0] = 1e-6f;
-  settings.use = use;
+  settings.mode = mode;
   return settings;
 }
 
@@ -60,9 +60,9 @@ double expected_mean(const Lane& lane, int bits) {
   return sum;
 }
 
-TEST(SampleUse, PilotsKeptInTheMeanAreBiased) {
+TEST(SampleMode, PilotsKeptInTheMeanAreBiased) {
   // 4 pilots, 12 more if they differ: 2^16 outcomes.
-  const LaneSettings settings = pilot_settings(4, 16, SampleUse::reuse);
+  const LaneSettings settings = pilot_settings(4, 16, SampleMode::reuse);
   Lab lab(bits_of_pixel(256, 0), 256, 256, std::span(&settings, 1));
   run_to_end(lab);
   // Kept where all are 0 or all are 1, else the pilots and 12 · p over 16.
@@ -73,24 +73,24 @@ TEST(SampleUse, PilotsKeptInTheMeanAreBiased) {
   EXPECT_NEAR(expected_mean(lab.lanes()[0], 16), exact, 1e-8);
 }
 
-TEST(SampleUse, PilotsNeverShownAreNot) {
+TEST(SampleMode, PilotsNeverShownAreNot) {
   // 4 pilots, 4 more if they differ: 4 bits for the pilot run, 8 for what is shown.
-  const LaneSettings settings = pilot_settings(4, 8, SampleUse::unbiased);
+  const LaneSettings settings = pilot_settings(4, 8, SampleMode::unbiased);
   LabOptions options;
   options.pilot_source = bits_of_pixel(64, 0);
   Lab lab(bits_of_pixel(64, 4), 64, 64, std::span(&settings, 1), options);
   run_to_end(lab);
   EXPECT_NEAR(expected_mean(lab.lanes()[0], 12), p, 1e-8);
   // The same with the pilots kept, so that the test could fail.
-  const LaneSettings biased = pilot_settings(4, 8, SampleUse::reuse);
+  const LaneSettings biased = pilot_settings(4, 8, SampleMode::reuse);
   Lab kept(bits_of_pixel(64, 4), 64, 64, std::span(&biased, 1));
   run_to_end(kept);
   EXPECT_LT(expected_mean(kept.lanes()[0], 12), 0.9 * p);
 }
 
-TEST(SampleUse, TheBiasVanishesAtOneHalf) {
+TEST(SampleMode, TheBiasVanishesAtOneHalf) {
   // By symmetry: which is why no test uses it.
-  const LaneSettings settings = pilot_settings(4, 8, SampleUse::reuse);
+  const LaneSettings settings = pilot_settings(4, 8, SampleMode::reuse);
   Lab lab(bits_of_pixel(16, 0), 16, 16, std::span(&settings, 1));
   run_to_end(lab);
   double sum = 0.0;
@@ -100,9 +100,9 @@ TEST(SampleUse, TheBiasVanishesAtOneHalf) {
   EXPECT_NEAR(sum, 0.5, 1e-8);
 }
 
-TEST(SampleUse, ThePilotIsChargedAndNotShown) {
-  const LaneSettings lane_settings[] = {pilot_settings(4, 8, SampleUse::unbiased),
-                                        pilot_settings(4, 8, SampleUse::reuse)};
+TEST(SampleMode, ThePilotIsChargedAndNotShown) {
+  const LaneSettings lane_settings[] = {pilot_settings(4, 8, SampleMode::unbiased),
+                                        pilot_settings(4, 8, SampleMode::reuse)};
   LabOptions options;
   options.pilot_source = bits_of_pixel(64, 0);
   Lab lab(bits_of_pixel(64, 4), 64, 64, lane_settings, options);
@@ -129,8 +129,8 @@ TEST(SampleUse, ThePilotIsChargedAndNotShown) {
   EXPECT_GT(last.seconds, last.tracing_seconds);
 }
 
-TEST(SampleUse, WhatAModeNeedsMustBeThere) {
-  const LaneSettings settings = pilot_settings(4, 8, SampleUse::unbiased);
+TEST(SampleMode, WhatAModeNeedsMustBeThere) {
+  const LaneSettings settings = pilot_settings(4, 8, SampleMode::unbiased);
   try {
     Lab lab(bits_of_pixel(64, 4), 64, 64, std::span(&settings, 1));
     FAIL();
