@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/options/number_option.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policy_parameter.h"
 #include "renderer/measure/stop_conditions.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/options/number_option.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/measure/stop_conditions.h"
 #include "renderer/scene/scene.h"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/adaptive/film.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/pass_history.h"
 #include "renderer/adaptive/policy.h"
 #include "renderer/trace/store/sample_store.h"

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "renderer/adaptive/lane.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/lane_snapshot.h"
 #include "renderer/adaptive/policy.h"
 

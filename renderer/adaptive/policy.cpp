@@ -1,9 +1,9 @@
 #include "renderer/adaptive/policy.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policies/plan_parts.h"
 #include "renderer/adaptive/policies/policy_rows.h"
 #include "renderer/base/parallel.h"
@@ -29,32 +29,7 @@ const PolicyRow* row_of_policy(PolicyId key) {
   return nullptr;
 }
 
-constexpr std::array mode_table{
-    SampleModeRow{
-        SampleMode::reuse, "reuse", "reuse",
-        "the samples that decide are the picture: the 2021 report's way, biased (Kirk and "
-        "Arvo 1991)"},
-    SampleModeRow{
-        SampleMode::unbiased, "unbiased", "unbiased",
-        "a pilot run with another seed decides, and is thrown away: unbiased, at twice the "
-        "samples (Kirk and Arvo 1991)"},
-};
-
 }  // namespace
-
-std::uint32_t minimum_samples(const LaneSettings& settings) {
-  const auto minimum = estimator(settings.estimator).minimum_samples;
-  return minimum ? minimum(settings.thresholds) : 0;
-}
-
-LaneSettings default_settings(EstimatorId estimator_id) {
-  LaneSettings settings;
-  settings.estimator = estimator_id;
-  const Estimator& row = estimator(estimator_id);
-  settings.thresholds = row.default_thresholds;
-  settings.policy.kind = row.default_policy;
-  return settings;
-}
 
 std::span<const PolicyRow> policies() {
   static const std::vector<PolicyRow> table = table_of(row_of_policy);
@@ -67,18 +42,6 @@ const PolicyRow& policy(PolicyId key) {
 
 const PolicyRow& find_policy(std::string_view id) {
   return find_row(policies(), id, "policy");
-}
-
-std::span<const SampleModeRow> sample_modes() {
-  return mode_table;
-}
-
-const SampleModeRow& sample_mode(SampleMode key) {
-  return row_of(sample_modes(), key);
-}
-
-const SampleModeRow& find_sample_mode(std::string_view id) {
-  return find_row(sample_modes(), id, "mode");
 }
 
 void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan) {

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/adaptive/estimators/estimator.h"
-
 namespace quartet {
+
+struct LaneSettings;  // lane_settings.h
 
 enum class PolicyId { vote, two_level, batch, converge };
 
@@ -28,33 +28,6 @@ struct Policy {
   bool operator==(const Policy&) const = default;
 };
 
-/// What the samples that decide are used for beside.
-enum class SampleMode {
-  /// They are the picture. Cheap, and biased: Kirk and Arvo, "Unbiased Sampling Techniques for
-  /// Image
-  /// Synthesis", SIGGRAPH 1991.
-  reuse,
-  /// Nothing: a pilot run with random numbers of its own decides, and the picture takes as many
-  /// samples of others. Unbiased at twice the samples.
-  unbiased,
-};
-
-/// What decides where a lane's samples go. A change replays the lane from its first pass.
-struct LaneSettings {
-  EstimatorId estimator = EstimatorId::contrast;
-  Thresholds thresholds = quartet::estimator(EstimatorId::contrast).default_thresholds;
-  Policy policy;
-  std::uint32_t max_spp = 1u << 16;  ///< at most most_spp
-  SampleMode mode = SampleMode::reuse;
-  bool operator==(const LaneSettings&) const = default;
-};
-
-/// More samples than this no pixel can have: indices of samples are also counted with a sign.
-inline constexpr std::uint32_t most_spp = (1u << 31) - 1;
-
-/// Settings with an estimator's default thresholds and policy.
-LaneSettings default_settings(EstimatorId estimator);
-
 /// What a policy sees at the end of a pass.
 struct PlanInput {
   int width;
@@ -72,9 +45,6 @@ struct Plan {
   std::uint64_t not_done = 0;
 };
 
-/// Samples below which no pixel is done, whatever its error: as the estimator has it.
-std::uint32_t minimum_samples(const LaneSettings& settings);
-
 /// One row of the table of policies.
 struct PolicyRow {
   PolicyId key;
@@ -89,19 +59,6 @@ std::span<const PolicyRow> policies();
 const PolicyRow& policy(PolicyId key);
 /// Throws std::invalid_argument that lists the legal ids.
 const PolicyRow& find_policy(std::string_view id);
-
-/// One row of the table of what the samples that decide are used for.
-struct SampleModeRow {
-  SampleMode key;
-  std::string_view id;
-  std::string_view label;
-  std::string_view source;
-};
-
-std::span<const SampleModeRow> sample_modes();
-const SampleModeRow& sample_mode(SampleMode key);
-/// Throws std::invalid_argument that lists the legal ids.
-const SampleModeRow& find_sample_mode(std::string_view id);
 
 /// Plans the next pass, from nothing but the arguments; `plan` is overwritten. An estimator
 /// without an error gives every pixel one sample, whatever the policy.

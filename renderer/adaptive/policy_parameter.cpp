@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policies/policy_rows.h"
 #include "renderer/base/table.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/base/image.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/integrator.h"

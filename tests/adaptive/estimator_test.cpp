@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policy.h"
 #include "tests/adaptive/estimator_cases.h"
 #include "tests/adaptive/golden_windows.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policy_parameter.h"
 
 namespace quartet {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/sample_mode.h"
 #include "renderer/files/exr.h"
 #include "tests/app/program.h"
 #include "tests/files/temp_folder.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/adaptive/estimators/estimator.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policy.h"
 
 namespace quartet {

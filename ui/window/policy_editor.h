@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "ui/widgets/screen_rect.h"
 #include "ui/widgets/theme.h"
 

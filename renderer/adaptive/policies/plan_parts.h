@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/pixel_state.h"
 #include "renderer/adaptive/policy.h"
 #include "renderer/base/parallel.h"

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "renderer/adaptive/effort.h"
-#include "renderer/adaptive/policy.h"
 
 namespace quartet {
 namespace {

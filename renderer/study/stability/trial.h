@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/measure/rejected.h"
 #include "renderer/study/stability/outcome.h"
 
