@@ -16,7 +16,7 @@
 #include "app/terminal/progress.h"
 #include "renderer/files/staged_files.h"
 #include "renderer/scene/load_scene.h"
-#include "renderer/study/stability/verdict.h"
+#include "renderer/study/stability/cell_verdict.h"
 
 namespace quartet {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/terminal/messages.h"
 #include "renderer/adaptive/lab.h"
-#include "renderer/session/rejected_sample.h"
+#include "renderer/session/find_rejected.h"
 
 namespace quartet {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/options/run_options.h"
-#include "renderer/measure/rejected.h"
+#include "renderer/measure/rejected_count.h"
 #include "renderer/session/snapshot.h"
 
 namespace quartet {

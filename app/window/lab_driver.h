@@ -13,8 +13,8 @@
 #include "app/window/scene_loader.h"
 #include "renderer/session/equalise_task.h"
 #include "renderer/session/evaluation.h"
+#include "renderer/session/find_rejected.h"
 #include "renderer/session/reference_task.h"
-#include "renderer/session/rejected_sample.h"
 #include "renderer/session/session.h"
 #include "ui/window/lab_window.h"
 

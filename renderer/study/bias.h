@@ -8,7 +8,7 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/measure/capped.h"
-#include "renderer/measure/rejected.h"
+#include "renderer/measure/rejected_count.h"
 
 namespace quartet {
 

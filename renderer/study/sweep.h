@@ -12,7 +12,7 @@
 #include "renderer/measure/capped.h"
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/quality.h"
-#include "renderer/measure/rejected.h"
+#include "renderer/measure/rejected_count.h"
 #include "renderer/study/experiment.h"
 
 namespace quartet {

@@ -7,7 +7,7 @@
 
 #include "renderer/adaptive/estimators/estimator.h"
 #include "renderer/adaptive/estimators/quantiles.h"
-#include "renderer/adaptive/estimators/window.h"
+#include "renderer/adaptive/estimators/pixel_window.h"
 
 namespace quartet {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/adaptive/estimators/window.h"
+#include "renderer/adaptive/estimators/pixel_window.h"
 
 namespace quartet {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-#include "renderer/study/stability/verdict.h"
+#include "renderer/study/stability/cell_verdict.h"
 
 namespace quartet {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "renderer/session/evaluation.h"
+#include "renderer/session/find_rejected.h"
 #include "renderer/session/reference_task.h"
-#include "renderer/session/rejected_sample.h"
 #include "renderer/session/session.h"
 #include "ui/widgets/theme.h"
 #include "ui/window/lab_state.h"

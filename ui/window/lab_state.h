@@ -8,7 +8,7 @@
 
 #include "renderer/session/session.h"
 #include "renderer/study/stability/failure_case.h"
-#include "renderer/view/error_curves.h"
+#include "renderer/view/effort_chart.h"
 #include "renderer/view/lane_charts.h"
 #include "renderer/view/views.h"
 #include "ui/widgets/camera_controls.h"

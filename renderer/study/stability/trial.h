@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/measure/rejected.h"
+#include "renderer/measure/rejected_count.h"
 #include "renderer/study/stability/outcome.h"
 
 namespace quartet {

@@ -1,4 +1,4 @@
-#include "renderer/measure/rejected.h"
+#include "renderer/measure/rejected_count.h"
 
 #include <algorithm>
 #include <numeric>

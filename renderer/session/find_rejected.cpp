@@ -1,4 +1,4 @@
-#include "renderer/session/rejected_sample.h"
+#include "renderer/session/find_rejected.h"
 
 #include <algorithm>
 #include <array>

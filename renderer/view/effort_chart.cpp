@@ -1,4 +1,4 @@
-#include "renderer/view/error_curves.h"
+#include "renderer/view/effort_chart.h"
 
 #include <fmt/format.h>
 

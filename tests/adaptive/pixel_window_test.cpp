@@ -1,4 +1,4 @@
-#include "renderer/adaptive/estimators/window.h"
+#include "renderer/adaptive/estimators/pixel_window.h"
 
 #include <gtest/gtest.h>
 

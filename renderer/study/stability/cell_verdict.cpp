@@ -1,4 +1,4 @@
-#include "renderer/study/stability/verdict.h"
+#include "renderer/study/stability/cell_verdict.h"
 
 #include <fmt/format.h>
 
