@@ -101,7 +101,7 @@ void run_bias(const BiasOptions& options, const Program& program) {
   const BiasReport report{run, all, options.passes, options.confidence, program.command_line};
   files.finish([&] { write_bias_files(files, report); });
   print_table(report);
-  RejectedSamples rejected;
+  RejectedCount rejected;
   CappedPixels capped;
   for (const BiasRuns& runs : all) {
     keep_most(rejected, runs.rejected);

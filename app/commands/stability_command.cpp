@@ -82,7 +82,7 @@ StabilityOptions options_of(const StabilityCommand& command) {
 /// One line a case that met samples which no film takes.
 void report_rejected(const std::vector<CaseResult>& results) {
   for (const CaseResult& result : results) {
-    RejectedSamples most;
+    RejectedCount most;
     for (const Trial& trial : result.trials) {
       if (trial.variation == Variation::none) {
         keep_most(most, trial.rejected);
@@ -102,14 +102,14 @@ void print_summary(const StabilityOptions& options, const StabilitySummary& summ
   for (const FailureCase* failure : options.cases) {
     const Cell* worst = nullptr;
     for (const Cell& cell : summary.cells) {
-      if (cell.failure == failure && (!worst || &verdict(cell) < &verdict(*worst))) {
+      if (cell.failure == failure && (!worst || &cell_verdict(cell) < &cell_verdict(*worst))) {
         worst = &cell;
       }
     }
     fmt::print("{:<17} {:<16} {:<10} {:<19} {}\n", failure->id,
                estimator(worst->settings.estimator).id,
-               worst->tuning == Tuning::usual ? "default" : "budget", verdict(*worst).label,
-               verdict(*worst).number(*worst));
+               worst->tuning == Tuning::usual ? "default" : "budget", cell_verdict(*worst).label,
+               cell_verdict(*worst).number(*worst));
   }
   const double level = summary.confidence.each();
   const auto rejected = [&](BiasTest Cell::*picture, BiasTest Cell::*region) {

@@ -10,7 +10,7 @@
 
 namespace quartet {
 
-void report_rejected(const RejectedSamples& rejected, RunOptions options,
+void report_rejected(const RejectedCount& rejected, RunOptions options,
                      std::shared_ptr<const TraceScene> scene, RenderSettings settings) {
   if (rejected.count == 0) {
     return;
@@ -28,7 +28,7 @@ void report_rejected(const RejectedSamples& rejected, RunOptions options,
 }
 
 void report_rejected(const Snapshot& snapshot, const RunOptions& options) {
-  RejectedSamples most;
+  RejectedCount most;
   for (const LaneSnapshot& lane : snapshot.lanes) {
     keep_most(most, rejected_of(lane.rejected, lane.taken, snapshot.settings.seed));
   }

@@ -62,7 +62,7 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
     csv += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.4g}\n", row, metric, value.off.mean,
                        value.off.low, value.off.high, value.p);
   };
-  csv += fmt::format("{},verdict,{},,,\n", row, verdict(cell).id);
+  csv += fmt::format("{},verdict,{},,,\n", row, cell_verdict(cell).id);
   test("bias", cell.picture);
   test("region_bias", cell.region);
   test("unbiased_bias", cell.unbiased_picture);
@@ -123,11 +123,11 @@ MatrixFigure matrix_of(const StabilityOptions& options, const StabilitySummary& 
                    options.spp),
        {}}};
   for (const Cell& cell : summary.cells) {
-    const VerdictRow& row = verdict(cell);
+    const CellVerdict& row = cell_verdict(cell);
     figure.panels[cell.tuning == Tuning::usual ? 0 : 1].cells.push_back(
         {row.number(cell), row.color});
   }
-  for (const VerdictRow& row : verdicts()) {
+  for (const CellVerdict& row : cell_verdicts()) {
     figure.legend.push_back({row.color, std::string(row.label), std::string(row.rule)});
   }
   figure.footer = fmt::format("quartet {} · {}", version(), command_line);

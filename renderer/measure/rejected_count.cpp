@@ -5,9 +5,9 @@
 
 namespace quartet {
 
-RejectedSamples rejected_of(std::span<const std::uint32_t> rejected,
-                            std::span<const std::uint32_t> taken, std::uint64_t seed) {
-  RejectedSamples result{.seed = seed};
+RejectedCount rejected_of(std::span<const std::uint32_t> rejected,
+                          std::span<const std::uint32_t> taken, std::uint64_t seed) {
+  RejectedCount result{.seed = seed};
   result.count = std::accumulate(rejected.begin(), rejected.end(), std::uint64_t(0));
   if (result.count > 0) {
     const auto first = std::ranges::find_if(rejected, [](std::uint32_t n) { return n > 0; });
@@ -17,11 +17,11 @@ RejectedSamples rejected_of(std::span<const std::uint32_t> rejected,
   return result;
 }
 
-RejectedSamples rejected_of(const Lane& lane, std::uint64_t seed) {
+RejectedCount rejected_of(const Lane& lane, std::uint64_t seed) {
   return rejected_of(lane.film().rejected(), lane.taken(), seed);
 }
 
-void keep_most(RejectedSamples& most, const RejectedSamples& other) {
+void keep_most(RejectedCount& most, const RejectedCount& other) {
   if (other.count > most.count) {
     most = other;
   }

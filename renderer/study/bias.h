@@ -24,7 +24,7 @@ struct BiasRuns {
   RadianceImage uniform;          ///< the same of uniform sampling
   ScalarImage difference;         ///< luminance of mean less that of uniform
   ScalarImage standard_error;     ///< of `difference`, from its spread over the seeds
-  RejectedSamples rejected;       ///< of the seed that met most
+  RejectedCount rejected;         ///< of the seed that met most
   CappedPixels capped;            ///< of the seed that has most
   double noise = 0.0;    ///< variance of a picture over the seeds, mean over pixels and channels
   bool partial = false;  ///< memory was short with one of the seeds: samples were forgotten

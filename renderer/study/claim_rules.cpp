@@ -39,18 +39,18 @@ class Judge {
   template <class Value>
   void above(double limit, std::string what, const Value& value) {
     check(fmt::format("{} > {:g}", what, limit), value, [limit](const Interval& interval) {
-      return interval.low > limit    ? Verdict::holds
-             : interval.high < limit ? Verdict::does_not_hold
-                                     : Verdict::undecided;
+      return interval.low > limit    ? ClaimVerdict::holds
+             : interval.high < limit ? ClaimVerdict::does_not_hold
+                                     : ClaimVerdict::undecided;
     });
   }
 
   template <class Value>
   void below(double limit, std::string what, const Value& value) {
     check(fmt::format("{} < {:g}", what, limit), value, [limit](const Interval& interval) {
-      return interval.high < limit  ? Verdict::holds
-             : interval.low > limit ? Verdict::does_not_hold
-                                    : Verdict::undecided;
+      return interval.high < limit  ? ClaimVerdict::holds
+             : interval.low > limit ? ClaimVerdict::does_not_hold
+                                    : ClaimVerdict::undecided;
     });
   }
 
@@ -58,20 +58,21 @@ class Judge {
   void within(double low, double high, std::string what, const Value& value) {
     check(fmt::format("{} from {:g} to {:g}", what, low, high), value,
           [low, high](const Interval& interval) {
-            return interval.low > low && interval.high < high   ? Verdict::holds
-                   : interval.high < low || interval.low > high ? Verdict::does_not_hold
-                                                                : Verdict::undecided;
+            return interval.low > low && interval.high < high   ? ClaimVerdict::holds
+                   : interval.high < low || interval.low > high ? ClaimVerdict::does_not_hold
+                                                                : ClaimVerdict::undecided;
           });
   }
 
   Claim take() {
-    const auto is = [](Verdict verdict) {
+    const auto is = [](ClaimVerdict verdict) {
       return [verdict](const ClaimCheck& check) { return check.verdict == verdict; };
     };
-    claim_.verdict = std::ranges::any_of(claim_.checks, is(Verdict::does_not_hold))
-                         ? Verdict::does_not_hold
-                     : std::ranges::all_of(claim_.checks, is(Verdict::holds)) ? Verdict::holds
-                                                                              : Verdict::undecided;
+    claim_.verdict = std::ranges::any_of(claim_.checks, is(ClaimVerdict::does_not_hold))
+                         ? ClaimVerdict::does_not_hold
+                     : std::ranges::all_of(claim_.checks, is(ClaimVerdict::holds))
+                         ? ClaimVerdict::holds
+                         : ClaimVerdict::undecided;
     return std::move(claim_);
   }
 
@@ -176,13 +177,13 @@ Claim firefly(const ClaimData& data) {
 
 }  // namespace
 
-std::string_view verdict_text(Verdict verdict) {
+std::string_view verdict_text(ClaimVerdict verdict) {
   switch (verdict) {
-    case Verdict::holds:
+    case ClaimVerdict::holds:
       return "holds";
-    case Verdict::does_not_hold:
+    case ClaimVerdict::does_not_hold:
       return "does not hold";
-    case Verdict::undecided:
+    case ClaimVerdict::undecided:
       break;
   }
   return "undecided";

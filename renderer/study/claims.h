@@ -50,8 +50,8 @@ struct ClaimSeed {
 struct ClaimData {
   std::vector<std::size_t> pixels;  ///< of each region
   std::vector<ClaimSeed> seeds;
-  RejectedSamples rejected;  ///< of the run that met most
-  bool partial = false;      ///< memory was short: some samples were traced again
+  RejectedCount rejected;  ///< of the run that met most
+  bool partial = false;    ///< memory was short: some samples were traced again
 };
 
 /// Renders the report's scene as the report did, at several seeds. Nothing if `stop` ended it.
@@ -64,14 +64,15 @@ std::optional<ClaimData> measure_claims(
 /// A value of each seed, with the interval of its mean.
 Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value);
 
-enum class Verdict { holds, does_not_hold, undecided };
-std::string_view verdict_text(Verdict verdict);
+enum class ClaimVerdict { holds, does_not_hold, undecided };
+std::string_view verdict_text(ClaimVerdict verdict);
 
 /// One condition of a finding: a number that must lie on one side of a limit.
 struct ClaimCheck {
   std::string text;  ///< what is compared, with the limit
   Interval value;
-  Verdict verdict = Verdict::undecided;  ///< undecided: the limit lies inside the interval
+  ClaimVerdict verdict =
+      ClaimVerdict::undecided;  ///< undecided: the limit lies inside the interval
 };
 
 /// A finding of the report as a rule: it holds if all of its conditions do, and does not if one of
@@ -80,7 +81,7 @@ struct Claim {
   int number = 0;  ///< of the list of findings
   std::string text;
   std::vector<ClaimCheck> checks;
-  Verdict verdict = Verdict::undecided;
+  ClaimVerdict verdict = ClaimVerdict::undecided;
 };
 
 /// The five findings, judged by 95 % intervals over the seeds.

@@ -72,7 +72,7 @@ struct SweepResult {
   std::uint64_t samples_traced = 0;
   std::uint64_t samples_used = 0;  ///< by all runs together
   bool partial = false;            ///< memory was short: some samples were traced again
-  RejectedSamples rejected;        ///< of the run that met most
+  RejectedCount rejected;          ///< of the run that met most
   CappedPixels capped;             ///< of the run that has most
 };
 

@@ -69,7 +69,7 @@ Line line_of(std::vector<glm::dvec2> points, Rgba8 color, std::string label, int
 
 }  // namespace
 
-Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what) {
+Chart effort_chart(const Snapshot& snapshot, const EffortChart& what) {
   const Metric& row = metric(snapshot.metric);
   Chart chart;
   chart.title = fmt::format("{} against {}", row.label, effort_row(what.effort).label);

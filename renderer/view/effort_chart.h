@@ -10,7 +10,7 @@
 namespace quartet {
 
 /// How far each lane has come against the reference and what uniform sampling does instead.
-struct ErrorCurves {
+struct EffortChart {
   Effort effort = Effort::seconds;
   std::array<Rgba8, 4> colors;        ///< of the lanes; more lanes take them again
   std::optional<double> noise_floor;  ///< of the reference, in the snapshot's metric
@@ -20,7 +20,7 @@ struct ErrorCurves {
 /// was measured and beyond that dashed, as errors of samples at random fall, and the noise floor.
 /// Of decibels the vertical axis is linear. Empty, with a text that says so, for a snapshot without
 /// errors.
-Chart error_curve_chart(const Snapshot& snapshot, const ErrorCurves& what);
+Chart effort_chart(const Snapshot& snapshot, const EffortChart& what);
 
 /// What uniform sampling reaches with this much effort: measured points are joined by straight
 /// lines in log–log; beyond the last one by the slope of samples at random. None before the first

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "renderer/adaptive/estimators/estimator.h"
-#include "renderer/adaptive/estimators/quantiles.h"
 #include "renderer/adaptive/estimators/pixel_window.h"
+#include "renderer/adaptive/estimators/quantiles.h"
 
 namespace quartet {
 
@@ -127,7 +127,7 @@ class BruteForce {
   }
 
   static double divergence_of(Divergence divergence, const Channels& channels) {
-    return divergence_error(divergence, Window<double>{channels[0], channels[1], channels[2]});
+    return divergence_error(divergence, PixelWindow<double>{channels[0], channels[1], channels[2]});
   }
   static double over_samples(Divergence divergence, const std::vector<glm::vec3>& samples) {
     Channels channels;

@@ -19,7 +19,7 @@ struct GoldenWindow {
   double chi2 = 0.0;
   double hellinger = 0.0;
 
-  Window<double> window() const { return {channels[0], channels[1], channels[2]}; }
+  PixelWindow<double> window() const { return {channels[0], channels[1], channels[2]}; }
   double divergence(Divergence which) const {
     return which == Divergence::kl ? kl : which == Divergence::chi2 ? chi2 : hellinger;
   }

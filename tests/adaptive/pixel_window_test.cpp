@@ -12,7 +12,7 @@ namespace {
 /// A grey window.
 struct Grey {
   std::vector<double> values;
-  Window<double> window() const { return {values, values, values}; }
+  PixelWindow<double> window() const { return {values, values, values}; }
 };
 
 double error(Divergence divergence, const Grey& grey) {
@@ -26,7 +26,7 @@ double divergence(Divergence which, const Grey& grey) {
   return scaled * scaled;
 }
 
-TEST(Window, GoldenValues) {
+TEST(PixelWindow, GoldenValues) {
   const auto windows = golden_windows();
   ASSERT_EQ(windows.size(), 17u);
   for (const GoldenWindow& golden : windows) {
@@ -42,7 +42,7 @@ TEST(Window, GoldenValues) {
   }
 }
 
-TEST(Window, OneHot) {
+TEST(PixelWindow, OneHot) {
   for (const std::size_t n : {4u, 6u, 9u}) {
     Grey grey{std::vector<double>(n, 0.0)};
     grey.values[1] = 3.0;
@@ -53,7 +53,7 @@ TEST(Window, OneHot) {
   }
 }
 
-TEST(Window, Chi2IsPopulationDeviationOverN) {
+TEST(PixelWindow, Chi2IsPopulationDeviationOverN) {
   std::mt19937 random(1);
   std::exponential_distribution<double> radiance(1.0);
   for (int i = 0; i < 100; ++i) {
@@ -69,7 +69,7 @@ TEST(Window, Chi2IsPopulationDeviationOverN) {
   }
 }
 
-TEST(Window, SmallSpreadsStandInFixedRatios) {
+TEST(PixelWindow, SmallSpreadsStandInFixedRatios) {
   // KL ≈ CV²/2 and H ≈ CV²/8 with relative errors of the order of the spread itself.
   std::mt19937 random(2);
   std::uniform_real_distribution<double> spread(-1e-4, 1e-4);
@@ -84,7 +84,7 @@ TEST(Window, SmallSpreadsStandInFixedRatios) {
   }
 }
 
-TEST(Window, DivergencesIgnoreScaleAndErrorsFollowIt) {
+TEST(PixelWindow, DivergencesIgnoreScaleAndErrorsFollowIt) {
   const Grey grey{{0.1, 0.2, 0.9, 0.0, 0.4, 0.4}};
   Grey bright = grey;
   for (double& value : bright.values) {
@@ -97,7 +97,7 @@ TEST(Window, DivergencesIgnoreScaleAndErrorsFollowIt) {
   EXPECT_EQ(contrast<double>(bright.values), contrast<double>(grey.values));
 }
 
-TEST(Window, RunningSumsGiveTheSame) {
+TEST(PixelWindow, RunningSumsGiveTheSame) {
   // What a pixel's own samples need to keep: ΣL, ΣL², ΣL ln L, Σ√L.
   std::mt19937 random(3);
   std::exponential_distribution<double> radiance(1.0);
@@ -116,7 +116,7 @@ TEST(Window, RunningSumsGiveTheSame) {
   EXPECT_NEAR(divergence(Divergence::hellinger, grey), 1.0 - roots / std::sqrt(n * sum), 1e-10);
 }
 
-TEST(Window, NoLightIsNoError) {
+TEST(PixelWindow, NoLightIsNoError) {
   const Grey black{std::vector<double>(9, 0.0)};
   for (const Divergence which : all_divergences) {
     EXPECT_EQ(error(which, black), 0.0);

@@ -51,8 +51,8 @@ ClaimData obedient_data() {
   return data;
 }
 
-std::vector<Verdict> verdicts(const ClaimData& data) {
-  std::vector<Verdict> all;
+std::vector<ClaimVerdict> verdicts(const ClaimData& data) {
+  std::vector<ClaimVerdict> all;
   for (const Claim& claim : judge_claims(data)) {
     all.push_back(claim.verdict);
   }
@@ -60,7 +60,7 @@ std::vector<Verdict> verdicts(const ClaimData& data) {
 }
 
 template <class Change>
-Verdict verdict_after(std::size_t claim, const Change& change) {
+ClaimVerdict verdict_after(std::size_t claim, const Change& change) {
   ClaimData data = obedient_data();
   for (ClaimSeed& seed : data.seeds) {
     change(seed);
@@ -68,7 +68,7 @@ Verdict verdict_after(std::size_t claim, const Change& change) {
   const auto all = verdicts(data);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i != claim) {
-      EXPECT_EQ(all[i], Verdict::holds) << "finding " << i + 1;
+      EXPECT_EQ(all[i], ClaimVerdict::holds) << "finding " << i + 1;
     }
   }
   return all[claim];
@@ -80,44 +80,44 @@ TEST(Claims, HoldWhereTheyShould) {
   for (std::size_t i = 0; i < claims.size(); ++i) {
     EXPECT_EQ(claims[i].number, int(i) + 1);
     for (const ClaimCheck& check : claims[i].checks) {
-      EXPECT_EQ(check.verdict, Verdict::holds) << check.text;
+      EXPECT_EQ(check.verdict, ClaimVerdict::holds) << check.text;
     }
-    EXPECT_EQ(claims[i].verdict, Verdict::holds) << claims[i].text;
+    EXPECT_EQ(claims[i].verdict, ClaimVerdict::holds) << claims[i].text;
   }
 }
 
 TEST(Claims, EachFailsWithItsCondition) {
   EXPECT_EQ(
       verdict_after(0, [](ClaimSeed& s) { s.runs[0].spp[index_of(RegionId::ball_shadow)] = 31.0; }),
-      Verdict::does_not_hold);
+      ClaimVerdict::does_not_hold);
   EXPECT_EQ(
       verdict_after(0, [](ClaimSeed& s) { s.runs[2].spp[index_of(RegionId::ceiling)] = 40.0; }),
-      Verdict::does_not_hold);
+      ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(
                 1, [](ClaimSeed& s) { s.runs[1].spp[index_of(RegionId::bright_squares)] = 26.0; }),
-            Verdict::does_not_hold);
+            ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(
                 1, [](ClaimSeed& s) { s.runs[0].spp[index_of(RegionId::dark_borders)] = 45.0; }),
-            Verdict::does_not_hold);
+            ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(2, [](ClaimSeed& s) { s.lowest_correlation = 0.8; }),
-            Verdict::does_not_hold);
+            ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(2, [](ClaimSeed& s) { s.runs[3].mean_spp = 26.0; }),
-            Verdict::does_not_hold);
+            ClaimVerdict::does_not_hold);
   EXPECT_EQ(
       verdict_after(3, [](ClaimSeed& s) { s.runs[3].spp[index_of(RegionId::red_wall)] = 33.0; }),
-      Verdict::does_not_hold);
+      ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(4, [](ClaimSeed& s) { s.runs[1].firefly.nearby = 1.0; }),
-            Verdict::does_not_hold);
+            ClaimVerdict::does_not_hold);
 }
 
 TEST(Claims, AreUndecidedWhereSeedsDisagreeOrThereIsOne) {
   int k = 0;
   EXPECT_EQ(verdict_after(2, [&](ClaimSeed& s) { s.lowest_correlation = k++ % 2 ? 0.99 : 0.82; }),
-            Verdict::undecided);
+            ClaimVerdict::undecided);
   ClaimData data = obedient_data();
   data.seeds.resize(1);
-  for (const Verdict verdict : verdicts(data)) {
-    EXPECT_EQ(verdict, Verdict::undecided);
+  for (const ClaimVerdict verdict : verdicts(data)) {
+    EXPECT_EQ(verdict, ClaimVerdict::undecided);
   }
 }
 

@@ -70,7 +70,7 @@ TEST(Stability, WiresAreMissedByTheFirstSamples) {
   const StabilitySummary summary =
       summarize(run(small({"wires"}, {EstimatorId::confidence})), 0.01);
   const Cell& cell = cell_of(summary, "wires", EstimatorId::confidence, Tuning::usual);
-  EXPECT_EQ(verdict(cell).id, "misses");
+  EXPECT_EQ(cell_verdict(cell).id, "misses");
   EXPECT_GT(cell.value("missed").low, 0.25);
 }
 
@@ -172,25 +172,25 @@ void set(Cell& cell, std::string_view column, Interval value) {
   cell.values[std::size_t(place - columns.begin())] = value;
 }
 
-TEST(Verdict, IsTheFirstRuleThatHoldsOutsideTheInterval) {
+TEST(CellVerdict, IsTheFirstRuleThatHoldsOutsideTheInterval) {
   Cell cell = sound_cell();
-  EXPECT_EQ(verdict(cell).id, "sound");
-  EXPECT_EQ(verdict(cell).number(cell), "0.8 ×");
+  EXPECT_EQ(cell_verdict(cell).id, "sound");
+  EXPECT_EQ(cell_verdict(cell).number(cell), "0.8 ×");
   cell.equal_time = {1.3, 1.0, 1.6};
-  EXPECT_EQ(verdict(cell).id, "sound");  // it may be by chance
+  EXPECT_EQ(cell_verdict(cell).id, "sound");  // it may be by chance
   cell.equal_time = {1.3, 1.2, 1.4};
-  EXPECT_EQ(verdict(cell).id, "slow");
+  EXPECT_EQ(cell_verdict(cell).id, "slow");
   set(cell, "wasted", {0.6, 0.55, 0.65});
-  EXPECT_EQ(verdict(cell).id, "wasteful");
-  EXPECT_EQ(verdict(cell).number(cell), "60 %");
+  EXPECT_EQ(cell_verdict(cell).id, "wasteful");
+  EXPECT_EQ(cell_verdict(cell).number(cell), "60 %");
   set(cell, "never_done", {0.2, 0.1, 0.3});
-  EXPECT_EQ(verdict(cell).id, "never-done");
+  EXPECT_EQ(cell_verdict(cell).id, "never-done");
   set(cell, "missed", {0.5, 0.2, 0.8});
-  EXPECT_EQ(verdict(cell).id, "never-done");
+  EXPECT_EQ(cell_verdict(cell).id, "never-done");
   set(cell, "missed", {0.5, 0.4, 0.6});
-  EXPECT_EQ(verdict(cell).id, "misses");
+  EXPECT_EQ(cell_verdict(cell).id, "misses");
   cell.region.off = {-0.05, -0.06, -0.04};
-  EXPECT_EQ(verdict(cell).number(cell), "−5.0 %");
+  EXPECT_EQ(cell_verdict(cell).number(cell), "−5.0 %");
 }
 
 }  // namespace

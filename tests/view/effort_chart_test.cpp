@@ -43,8 +43,8 @@ Snapshot example() {
   return snapshot;
 }
 
-ErrorCurves against(Effort effort) {
-  ErrorCurves what;
+EffortChart against(Effort effort) {
+  EffortChart what;
   what.effort = effort;
   what.colors = {Rgba8{1, 0, 0}, Rgba8{2, 0, 0}, Rgba8{3, 0, 0}, Rgba8{4, 0, 0}};
   return what;
@@ -61,17 +61,17 @@ const Line& line_of(const Chart& chart, int id, bool dashed = false) {
   return none;
 }
 
-TEST(ErrorCurves, HasALineALaneWithAPointAPass) {
-  const Chart chart = error_curve_chart(example(), against(Effort::seconds));
+TEST(EffortChart, HasALineALaneWithAPointAPass) {
+  const Chart chart = effort_chart(example(), against(Effort::seconds));
   for (int lane = 0; lane < 2; ++lane) {
     const Line& line = line_of(chart, lane);
     EXPECT_EQ(line.color, (Rgba8{std::uint8_t(lane + 1), 0, 0}));
     ASSERT_EQ(line.points.size(), 8u);
   }
   EXPECT_EQ(line_of(chart, 0).points[2], glm::dvec2(6.0, 1.0 / 6.0));
-  const Chart by_spp = error_curve_chart(example(), against(Effort::mean_spp));
+  const Chart by_spp = effort_chart(example(), against(Effort::mean_spp));
   EXPECT_EQ(line_of(by_spp, 1).points[3], glm::dvec2(2.0, 0.25));
-  const Chart by_rays = error_curve_chart(example(), against(Effort::rays));
+  const Chart by_rays = effort_chart(example(), against(Effort::rays));
   EXPECT_EQ(line_of(by_rays, 1).points[3], glm::dvec2(14.0, 0.25));
   for (const Chart* each : {&chart, &by_spp, &by_rays}) {
     EXPECT_EQ(each->x.spacing, Spacing::logarithmic);
@@ -87,9 +87,9 @@ TEST(ErrorCurves, HasALineALaneWithAPointAPass) {
   }
 }
 
-TEST(ErrorCurves, UniformSamplingGoesOnAsItMust) {
+TEST(EffortChart, UniformSamplingGoesOnAsItMust) {
   const Snapshot snapshot = example();
-  const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
+  const Chart chart = effort_chart(snapshot, against(Effort::seconds));
   ASSERT_EQ(line_of(chart, -1).points.size(), 8u);
   const Line& beyond = line_of(chart, -1, true);
   ASSERT_EQ(beyond.points.size(), 2u);
@@ -100,34 +100,34 @@ TEST(ErrorCurves, UniformSamplingGoesOnAsItMust) {
 
   Snapshot other = snapshot;
   other.metric = MetricId::rmse;
-  const Chart rooted = error_curve_chart(other, against(Effort::seconds));
+  const Chart rooted = effort_chart(other, against(Effort::seconds));
   const Line& root = line_of(rooted, -1, true);
   EXPECT_NEAR(root.points[1].y, 1.0 / 8.0 / std::sqrt(2.0), 1e-12);
   other.metric = MetricId::psnr;
-  for (const Line& line : error_curve_chart(other, against(Effort::seconds)).lines) {
+  for (const Line& line : effort_chart(other, against(Effort::seconds)).lines) {
     EXPECT_FALSE(line.dashed) << "decibels have no such slope";
   }
 }
 
-TEST(ErrorCurves, TheNoiseFloorIsALevelInSight) {
-  ErrorCurves what = against(Effort::seconds);
+TEST(EffortChart, TheNoiseFloorIsALevelInSight) {
+  EffortChart what = against(Effort::seconds);
   what.noise_floor = 1e-5;
-  const Chart chart = error_curve_chart(example(), what);
+  const Chart chart = effort_chart(example(), what);
   ASSERT_EQ(chart.levels.size(), 1u);
   EXPECT_EQ(chart.levels[0].value, 1e-5);
   EXPECT_GE(axis_position(chart.y, 1e-5), 0.0);
 }
 
-TEST(ErrorCurves, WithoutErrorsItSaysSo) {
+TEST(EffortChart, WithoutErrorsItSaysSo) {
   const Snapshot snapshot = blank_snapshot(width, height, lanes);
-  const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
+  const Chart chart = effort_chart(snapshot, against(Effort::seconds));
   EXPECT_TRUE(chart.lines.empty());
   ASSERT_EQ(chart.texts.size(), 1u);
   EXPECT_FALSE(times_uniform(snapshot, 0));
   EXPECT_FALSE(baseline_error(snapshot, Effort::seconds, 1.0));
 }
 
-TEST(ErrorCurves, EfficiencyIsThatOfTheSameSeconds) {
+TEST(EffortChart, EfficiencyIsThatOfTheSameSeconds) {
   const Snapshot snapshot = example();
   // After 16 s uniform sampling would be at 1/16, and so is the lane.
   EXPECT_NEAR(*times_uniform(snapshot, 0), 1.0, 1e-12);
@@ -135,7 +135,7 @@ TEST(ErrorCurves, EfficiencyIsThatOfTheSameSeconds) {
   EXPECT_NEAR(*times_uniform(snapshot, 1), 2.0, 1e-12);
 }
 
-TEST(ErrorCurves, BetweenMeasuredPointsTheBaselineIsStraightInLogarithms) {
+TEST(EffortChart, BetweenMeasuredPointsTheBaselineIsStraightInLogarithms) {
   const Snapshot snapshot = example();
   for (const double seconds : {1.0, 1.5, 3.7, 8.0, 100.0}) {
     EXPECT_NEAR(*baseline_error(snapshot, Effort::seconds, seconds), 1.0 / seconds, 1e-9);
@@ -146,12 +146,12 @@ TEST(ErrorCurves, BetweenMeasuredPointsTheBaselineIsStraightInLogarithms) {
   EXPECT_FALSE(times_uniform(other, 1)) << "a ratio of decibels means nothing";
 }
 
-TEST(ErrorCurves, ErrorsThatNoLogarithmHasAreLeftOut) {
+TEST(EffortChart, ErrorsThatNoLogarithmHasAreLeftOut) {
   Snapshot snapshot = example();
   snapshot.lanes[0].history[1].true_error = 0.0;
   snapshot.lanes[0].history[2].true_error = INFINITY;
   snapshot.lanes[0].history[3].true_error = std::nan("");
-  const Chart chart = error_curve_chart(snapshot, against(Effort::seconds));
+  const Chart chart = effort_chart(snapshot, against(Effort::seconds));
   EXPECT_EQ(line_of(chart, 0).points.size(), 5u);
 }
 

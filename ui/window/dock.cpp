@@ -128,13 +128,13 @@ void draw_curves(LabFrame& frame, const ScreenRect& box) {
   if (!frame.snapshot || !frame.snapshot->reference) {
     return;
   }
-  ErrorCurves curves;
+  EffortChart curves;
   curves.effort = frame.state.dock.effort;
   for (std::size_t i = 0; i < curves.colors.size(); ++i) {
     curves.colors[i] = rgba_of(lane_color(i));
   }
   curves.noise_floor = noise_floor(frame, frame.snapshot->metric);
-  paint_chart(frame.ui, "dock.chart", error_curve_chart(*frame.snapshot, curves), box);
+  paint_chart(frame.ui, "dock.chart", effort_chart(*frame.snapshot, curves), box);
 }
 
 /// A plot a lane, side by side. They are of the picture that was evaluated last, while a drag goes

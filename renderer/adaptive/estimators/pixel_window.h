@@ -14,7 +14,7 @@ namespace quartet {
 ///
 /// T is float or double; a window is three spans of equal length n ≥ 1, linear radiance ≥ 0.
 template <class T>
-struct Window {
+struct PixelWindow {
   std::span<const T> r, g, b;
 
   std::size_t size() const { return r.size(); }
@@ -54,7 +54,7 @@ T divergence_part(Divergence divergence, T x) {
 }
 
 template <class T>
-T divergence_error(Divergence divergence, const Window<T>& window) {
+T divergence_error(Divergence divergence, const PixelWindow<T>& window) {
   const T mean = window.mean_luminance();
   if (!(mean > T(0))) {
     return T(0);

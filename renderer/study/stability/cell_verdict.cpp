@@ -18,7 +18,7 @@ std::string times(double ratio) {
 }
 
 constexpr std::array verdict_table{
-    VerdictRow{
+    CellVerdict{
         "biased",
         "biased",
         "The region's mean is off by more than 2 % over its whole interval: by how much.",
@@ -29,50 +29,51 @@ constexpr std::array verdict_table{
           return fmt::format("{}{:.{}f} %", off < 0.0 ? "−" : "+", std::abs(off),
                              std::abs(off) < 9.95 ? 1 : 0);
         }},
-    VerdictRow{"misses",
-               "misses",
-               "Of the pixels it is done with, more than a quarter are wrong: what share.",
-               {225, 87, 40},
-               [](const Cell& cell) { return cell.value("missed").low > 0.25; },
-               [](const Cell& cell) { return percent(cell.value("missed").mean); }},
-    VerdictRow{
+    CellVerdict{"misses",
+                "misses",
+                "Of the pixels it is done with, more than a quarter are wrong: what share.",
+                {225, 87, 40},
+                [](const Cell& cell) { return cell.value("missed").low > 0.25; },
+                [](const Cell& cell) { return percent(cell.value("missed").mean); }},
+    CellVerdict{
         "never-done",
         "never done",
         "More than 5 % of the region's pixels reach the maximum though not wrong: what share.",
         {136, 65, 157},
         [](const Cell& cell) { return cell.value("never_done").low > 0.05; },
         [](const Cell& cell) { return percent(cell.value("never_done").mean); }},
-    VerdictRow{"wasteful",
-               "wasteful",
-               "More than half of the samples that it chose to take went to pixels not wrong: what "
-               "share.",
-               {186, 135, 22},
-               [](const Cell& cell) { return cell.value("wasted").low > 0.5; },
-               [](const Cell& cell) { return percent(cell.value("wasted").mean); }},
-    VerdictRow{
+    CellVerdict{
+        "wasteful",
+        "wasteful",
+        "More than half of the samples that it chose to take went to pixels not wrong: what "
+        "share.",
+        {186, 135, 22},
+        [](const Cell& cell) { return cell.value("wasted").low > 0.5; },
+        [](const Cell& cell) { return percent(cell.value("wasted").mean); }},
+    CellVerdict{
         "slow",
         "slower than uniform",
         "At equal time its error is more than 1.1 × that of uniform sampling: how many times.",
         {153, 153, 153},
         [](const Cell& cell) { return cell.equal_time.low > 1.1; },
         [](const Cell& cell) { return times(cell.equal_time.mean); }},
-    VerdictRow{"sound",
-               "none of these",
-               "Error at equal time in relation to uniform sampling.",
-               {65, 134, 88},
-               [](const Cell&) { return true; },
-               [](const Cell& cell) { return times(cell.equal_time.mean); }},
+    CellVerdict{"sound",
+                "none of these",
+                "Error at equal time in relation to uniform sampling.",
+                {65, 134, 88},
+                [](const Cell&) { return true; },
+                [](const Cell& cell) { return times(cell.equal_time.mean); }},
 };
 
 }  // namespace
 
-std::span<const VerdictRow> verdicts() {
+std::span<const CellVerdict> cell_verdicts() {
   return verdict_table;
 }
 
-const VerdictRow& verdict(const Cell& cell) {
-  return *std::ranges::find_if(verdicts(),
-                               [&](const VerdictRow& row) { return row.applies(cell); });
+const CellVerdict& cell_verdict(const Cell& cell) {
+  return *std::ranges::find_if(cell_verdicts(),
+                               [&](const CellVerdict& row) { return row.applies(cell); });
 }
 
 }  // namespace quartet

@@ -10,7 +10,7 @@
 namespace quartet {
 
 /// One row of the table of verdicts, the worst first. The first whose rule holds is a cell's.
-struct VerdictRow {
+struct CellVerdict {
   std::string_view id;
   std::string_view label;
   std::string_view rule;  ///< one sentence
@@ -19,7 +19,7 @@ struct VerdictRow {
   std::string (*number)(const Cell& cell);  ///< that decided
 };
 
-std::span<const VerdictRow> verdicts();
-const VerdictRow& verdict(const Cell& cell);
+std::span<const CellVerdict> cell_verdicts();
+const CellVerdict& cell_verdict(const Cell& cell);
 
 }  // namespace quartet

@@ -40,7 +40,7 @@ struct Trial {
   LaneSettings settings;
   std::uint32_t passes = 0;
   Outcome outcome;
-  RejectedSamples rejected;
+  RejectedCount rejected;
 };
 
 /// What all trials of a case have in common. Policies must come to an end (not vote).
