@@ -27,9 +27,7 @@ namespace {
 class ExrStream : public Imf::OStream {
  public:
   ExrStream(FileWriter& file, const std::string& name) : Imf::OStream(name.c_str()), file_(file) {}
-  void write(const char bytes[], int size) override {
-    file_.write(bytes, static_cast<std::size_t>(size));
-  }
+  void write(const char bytes[], int size) override { file_.write(bytes, std::size_t(size)); }
   std::uint64_t tellp() override { return file_.position(); }
   void seekp(std::uint64_t position) override { file_.seek(position); }
 
@@ -53,11 +51,11 @@ bool contains(const ExrWindow& outer, const ExrWindow& inner) {
 template <class T>
 Imf::Slice slice_of(Imf::PixelType type, const T* pixels, const ExrWindow& window) {
   return Imf::Slice::Make(type, pixels, Imath::V2i(window.x, window.y), window.width, window.height,
-                          sizeof(T), sizeof(T) * static_cast<std::size_t>(window.width));
+                          sizeof(T), sizeof(T) * std::size_t(window.width));
 }
 
 Imf::Header header_of(const ExrImage& image) {
-  Imf::Header header(box_of(image.display), box_of(image.data), 1.f, Imath::V2f(0.f, 0.f), 1.f,
+  Imf::Header header(box_of(image.display), box_of(image.data), 1.0f, Imath::V2f(0.0f, 0.0f), 1.0f,
                      Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
   for (const auto& [name, text] : image.attributes) {
     header.insert(name, Imf::StringAttribute(text));
@@ -101,7 +99,7 @@ void check_exr_size(int width, int height, std::size_t channels) {
 
 void write_exr(const std::filesystem::path& path, const ExrImage& image) {
   [[maybe_unused]] const std::size_t size =
-      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+      std::size_t(image.width()) * std::size_t(image.height());
   try {
     check_exr_size(image.width(), image.height(), image.channels.size());
   } catch (const std::runtime_error& error) {

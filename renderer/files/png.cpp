@@ -32,8 +32,8 @@ void write_png(const std::filesystem::path& path, const DisplayImage& image) {
 
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width());
-  png.height = static_cast<png_uint_32>(image.height());
+  png.width = png_uint_32(image.width());
+  png.height = png_uint_32(image.height());
   png.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
   // Encoded in memory, so that only FileWriter has to do with the disk.
   std::vector<std::uint8_t> encoded(PNG_IMAGE_PNG_SIZE_MAX(png));
@@ -66,7 +66,7 @@ DisplayImage read_png(const std::filesystem::path& path) {
   if (png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr) == 0) {
     throw fail(png.message);
   }
-  DisplayImage image(static_cast<int>(png.width), static_cast<int>(png.height));
+  DisplayImage image(int(png.width), int(png.height));
   for (std::size_t i = 0; i < image.size(); ++i) {
     image.pixels()[i] = {bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]};
   }

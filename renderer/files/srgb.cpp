@@ -19,7 +19,7 @@ namespace {
 /// bits are.
 std::uint32_t first_bits_of(int value) {
   std::uint32_t low = 0;
-  auto high = std::bit_cast<std::uint32_t>(1.f);
+  auto high = std::bit_cast<std::uint32_t>(1.0f);
   while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
     if (std::lround(255.0 * srgb_encode(std::bit_cast<float>(middle))) >= value) {
@@ -34,18 +34,18 @@ std::uint32_t first_bits_of(int value) {
 }  // namespace
 
 Srgb8Encoder::Srgb8Encoder() {
-  constexpr auto kNoStep = std::bit_cast<std::uint32_t>(2.f);
-  parts_.fill({kNoStep, 0});
+  constexpr auto no_step = std::bit_cast<std::uint32_t>(2.0f);
+  parts_.fill({no_step, 0});
   for (int value = 1; value <= 255; ++value) {
     const std::uint32_t bits = first_bits_of(value);
-    Part& part = parts_.at((bits - kLowestBits) >> kPartShift);
-    assert(part.step == kNoStep);
+    Part& part = parts_.at((bits - lowest_bits) >> part_shift);
+    assert(part.step == no_step);
     part.step = bits;
   }
   std::uint32_t below = 0;
   for (Part& part : parts_) {
     part.below = below;
-    below += part.step != kNoStep ? 1 : 0;
+    below += part.step != no_step ? 1 : 0;
   }
 }
 

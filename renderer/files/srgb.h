@@ -25,12 +25,12 @@ class Srgb8Encoder {
   /// The two halves of operator(): a loop over the first one vectorises, which is worth a factor
   /// of two for a whole image.
   static std::uint32_t clamped_bits(float linear) {
-    const float above = linear > kLowest ? linear : kLowest;  // false for NaN
-    return std::bit_cast<std::uint32_t>(above < kHighest ? above : kHighest);
+    const float above = linear > lowest ? linear : lowest;  // false for NaN
+    return std::bit_cast<std::uint32_t>(above < highest ? above : highest);
   }
   std::uint8_t look_up(std::uint32_t bits) const {
-    const Part& part = parts_[(bits - kLowestBits) >> kPartShift];
-    return static_cast<std::uint8_t>(part.below + (bits >= part.step ? 1u : 0u));
+    const Part& part = parts_[(bits - lowest_bits) >> part_shift];
+    return std::uint8_t(part.below + (bits >= part.step ? 1u : 0u));
   }
 
  private:
@@ -39,13 +39,13 @@ class Srgb8Encoder {
     std::uint32_t below;  // the value up to there
   };
 
-  static constexpr float kLowest = 0x1p-13f;         // below the first step, 0.5/255/12.92
-  static constexpr float kHighest = 0x1.fffffep-1f;  // above the last step
-  static constexpr auto kLowestBits = std::bit_cast<std::uint32_t>(kLowest);
-  static constexpr int kPartShift = 23 - 7;          // a part is 2^-7 of an octave
-  static constexpr std::size_t kParts = 13UL * 128;  // 13 octaves from 2^-13 to 1
+  static constexpr float lowest = 0x1p-13f;         // below the first step, 0.5/255/12.92
+  static constexpr float highest = 0x1.fffffep-1f;  // above the last step
+  static constexpr auto lowest_bits = std::bit_cast<std::uint32_t>(lowest);
+  static constexpr int part_shift = 23 - 7;              // a part is 2^-7 of an octave
+  static constexpr std::size_t part_count = 13UL * 128;  // 13 octaves from 2^-13 to 1
 
-  std::array<Part, kParts> parts_;
+  std::array<Part, part_count> parts_;
 };
 
 /// The one encoder of the process. Take the reference once, outside of loops.

@@ -15,8 +15,7 @@ namespace quartet {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kPixelsPerDegree = 0.7 * 3840.0 / 0.7 * kPi / 180.0;
+constexpr double pixels_per_degree = 0.7 * 3840.0 / 0.7 * std::numbers::pi / 180.0;
 
 // ---- Colour spaces -----------------------------------------------------------------------------
 
@@ -202,13 +201,17 @@ struct Sensitivity {
 
 Sensitivity sensitivity(double a1, double b1, double a2, double b2) {
   constexpr double widest = 0.04;  // the largest b
-  const int radius = int(std::ceil(3.0 * std::sqrt(widest / (2.0 * kPi * kPi)) * kPixelsPerDegree));
+  const int radius = int(std::ceil(
+      3.0 * std::sqrt(widest / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree));
   Sensitivity result;
   std::array<double, 2> sums{};
-  const std::array<double, 2> heights{a1 * std::sqrt(kPi / b1), a2 * std::sqrt(kPi / b2)};
+  const std::array<double, 2> heights{a1 * std::sqrt(std::numbers::pi / b1),
+                                      a2 * std::sqrt(std::numbers::pi / b2)};
   const std::array<double, 2> widths{b1, b2};
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto values = bell(widths[i] * kPixelsPerDegree * kPixelsPerDegree / (kPi * kPi), radius);
+    const auto values = bell(
+        widths[i] * pixels_per_degree * pixels_per_degree / (std::numbers::pi * std::numbers::pi),
+        radius);
     result.kernels[i] = smooth_kernel(values);
     sums[i] = heights[i] * sum_of(values) * sum_of(values);
   }
@@ -237,7 +240,7 @@ struct FeatureKernels {
 };
 
 FeatureKernels feature_kernels() {
-  const double sd = 0.5 * 0.082 * kPixelsPerDegree;
+  const double sd = 0.5 * 0.082 * pixels_per_degree;
   const int radius = int(std::ceil(3.0 * sd));
   const std::vector<double> values = bell(2.0 * sd * sd, radius);
   std::vector<double> edge;

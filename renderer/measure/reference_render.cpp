@@ -17,7 +17,7 @@ namespace quartet {
 
 namespace {
 
-constexpr int kTile = 16;  // neighbours meet the same shapes
+constexpr int tile_side = 16;  // neighbours meet the same shapes
 
 std::array<SampleSource, 2> sources_of(const std::shared_ptr<const TraceScene>& scene,
                                        RenderSettings settings) {
@@ -31,7 +31,7 @@ std::array<SampleSource, 2> sources_of(const std::shared_ptr<const TraceScene>& 
 }
 
 int tiles(int side) {
-  return (side + kTile - 1) / kTile;
+  return (side + tile_side - 1) / tile_side;
 }
 
 }  // namespace
@@ -95,10 +95,10 @@ void ReferenceRender::add_tile(std::size_t half, std::size_t tile, std::uint32_t
   constexpr std::uint32_t batch = 64;
   std::array<glm::vec3, batch> samples;
   const int width = sums_.settings.width;
-  const int left = int(tile % std::size_t(tiles(width))) * kTile;
-  const int top = int(tile / std::size_t(tiles(width))) * kTile;
-  const int right = std::min(left + kTile, width);
-  const int bottom = std::min(top + kTile, sums_.settings.height);
+  const int left = int(tile % std::size_t(tiles(width))) * tile_side;
+  const int top = int(tile / std::size_t(tiles(width))) * tile_side;
+  const int right = std::min(left + tile_side, width);
+  const int bottom = std::min(top + tile_side, sums_.settings.height);
   ReferenceSums::Half& into = sums_.halves[half];
   for (int y = top; y < bottom; ++y) {
     for (int x = left; x < right; ++x) {

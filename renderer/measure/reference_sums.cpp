@@ -20,12 +20,12 @@ namespace quartet {
 
 namespace {
 
-constexpr std::string_view kKind = "uniform reference of two independent halves";
-constexpr std::array kChannels{"R", "G", "B"};
-constexpr std::array<std::string_view, 5> kFovAxes{"x", "y", "diagonal", "smaller", "larger"};
+constexpr std::string_view reference_kind = "uniform reference of two independent halves";
+constexpr std::array channel_names{"R", "G", "B"};
+constexpr std::array<std::string_view, 5> fov_axes{"x", "y", "diagonal", "smaller", "larger"};
 
 std::string sum_channel(std::size_t half, int channel, std::string_view word) {
-  return fmt::format("Half{}.{}.{}", half, kChannels[std::size_t(channel)], word);
+  return fmt::format("Half{}.{}.{}", half, channel_names[std::size_t(channel)], word);
 }
 
 std::string rejected_channel(std::size_t half) {
@@ -41,7 +41,7 @@ std::string text_of(glm::vec3 v) {
 std::string text_of(const Camera& camera) {
   return fmt::format("origin {} right {} up {} forward {} fov {} {} aperture {} focus {}",
                      text_of(camera.origin), text_of(camera.right), text_of(camera.up),
-                     text_of(camera.forward), camera.fov, kFovAxes[std::size_t(camera.fov_axis)],
+                     text_of(camera.forward), camera.fov, fov_axes[std::size_t(camera.fov_axis)],
                      camera.aperture_radius, camera.focus_distance);
 }
 
@@ -90,11 +90,11 @@ class Header {
     word("fov"), in >> camera.fov >> axis;
     word("aperture"), in >> camera.aperture_radius;
     word("focus"), in >> camera.focus_distance;
-    const auto* const known = std::ranges::find(kFovAxes, axis);
-    if (!in || known == kFovAxes.end()) {
+    const auto* const known = std::ranges::find(fov_axes, axis);
+    if (!in || known == fov_axes.end()) {
       fail(fmt::format("'{}' in its header is no camera", text("camera")));
     }
-    camera.fov_axis = FovAxis(known - kFovAxes.begin());
+    camera.fov_axis = FovAxis(known - fov_axes.begin());
     return camera;
   }
 
@@ -214,7 +214,7 @@ void check_pixels(const Header& header, const ReferenceSums& sums) {
       const bool possible = first.sums[i][c] >= 0.0 && second.sums[i][c] >= 0.0 &&
                             std::isfinite(first.sums[i][c]) && std::isfinite(second.sums[i][c]);
       if (!possible || !(mean[c] == (*means[std::size_t(c)])[i])) {
-        fail(fmt::format("{} is {}, and its sums make {}", kChannels[std::size_t(c)],
+        fail(fmt::format("{} is {}, and its sums make {}", channel_names[std::size_t(c)],
                          (*means[std::size_t(c)])[i], mean[c]));
       }
     }
@@ -262,7 +262,7 @@ ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line) {
   add_half(sums, 0, exr);
   add_half(sums, 1, exr);
   exr.attributes = {
-      {"reference", std::string(kKind)},
+      {"reference", std::string(reference_kind)},
       {"scene", sums.scene_name},
       {"sceneHash", sums.scene_hash},
       {"camera", text_of(settings.camera)},
@@ -282,7 +282,7 @@ ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line) {
 
 std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem::path& path) {
   const auto kind = exr.attributes.find("reference");
-  if (kind == exr.attributes.end() || kind->second != kKind) {
+  if (kind == exr.attributes.end() || kind->second != reference_kind) {
     return std::nullopt;
   }
   const Header header(exr, path);

@@ -11,7 +11,7 @@ namespace quartet {
 struct ColorBar {
   ColorScale scale;
   std::string label;      ///< e.g. "samples per pixel"
-  std::string cap_label;  ///< what kCapColor means; empty if the pictures have no such pixels
+  std::string cap_label;  ///< what cap_color means; empty if the pictures have no such pixels
 };
 
 }  // namespace quartet

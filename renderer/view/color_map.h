@@ -28,10 +28,10 @@ const ColorMapRow& color_map_row(ColorMapId key);
 const ColorMapRow& find_color_map(std::string_view id);
 
 /// Pixels without a number (NaN) and pixels at the sample cap. No colour map contains these.
-inline constexpr Rgba8 kNotANumberColor{0, 0, 0, 255};
-inline constexpr Rgba8 kCapColor{255, 0, 255, 255};
+inline constexpr Rgba8 not_a_number_color{0, 0, 0, 255};
+inline constexpr Rgba8 cap_color{255, 0, 255, 255};
 
-/// The colour at t, clamped to [0, 1]; NaN gives kNotANumberColor.
+/// The colour at t, clamped to [0, 1]; NaN gives not_a_number_color.
 Rgba8 sample(ColorMapId color_map, float t);
 
 /// How numbers lie along an axis or a colour bar.
@@ -59,7 +59,7 @@ std::vector<Tick> scale_ticks(const ColorScale& scale, int wanted);
 void apply(std::span<const float> numbers, const ColorScale& scale, std::span<Rgba8> display);
 
 /// Samples per pixel as colours, exactly. Pixels with `cap` samples or more, the maximum a lane
-/// allows, get kCapColor.
+/// allows, get cap_color.
 void heatmap(std::span<const std::uint32_t> counts, const ColorScale& scale,
              std::optional<std::uint32_t> cap, std::span<Rgba8> display);
 

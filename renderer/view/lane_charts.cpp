@@ -127,7 +127,7 @@ Chart sample_chart(const Snapshot& snapshot, std::size_t lane, const ColorScale&
       const double end = begin + double(histogram.width);
       const bool capped = end > double(shown.settings.max_spp);
       const Rgba8 color =
-          capped ? kCapColor
+          capped ? cap_color
                  : sample(scale.color_map, scale_position(scale, 0.5 * (begin + end - 1.0)));
       chart.bars.push_back({begin, end, double(histogram.pixels[bin]), color});
     }

@@ -22,7 +22,7 @@ std::string tick_label(double value, double step, double largest) {
   if (largest >= 1e6 || step < 1e-4) {
     return format_number(value);
   }
-  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  const int decimals = std::max(0, int(-std::floor(std::log10(step) + 1e-9)));
   return fmt::format("{:.{}f}", value, decimals);
 }
 
@@ -43,7 +43,7 @@ std::string scientific_label(int digit, int exponent) {
   std::string label = digit == 1 ? "10" : fmt::format("{}·10", digit);
   label += exponent < 0 ? "⁻" : "";
   for (const char figure : std::to_string(std::abs(exponent))) {
-    label += superscripts[static_cast<std::size_t>(figure - '0')];
+    label += superscripts[std::size_t(figure - '0')];
   }
   return label;
 }

@@ -17,7 +17,7 @@ float clamp_curve(float x) {
 }
 
 float reinhard_curve(float x) {
-  return x / (1.f + x);
+  return x / (1.0f + x);
 }
 
 float filmic_curve(float x) {
@@ -31,13 +31,13 @@ void encode(std::span<const glm::vec3> radiance, float scale, std::span<Rgba8> d
   const auto bits_of = [scale](float value) {
     // An upper bound whose square is finite, so that no curve turns infinity into NaN.
     const float scaled = value * scale;
-    const float positive = scaled > 0.f ? scaled : 0.f;
+    const float positive = scaled > 0.0f ? scaled : 0.0f;
     return Srgb8Encoder::clamped_bits(curve(positive < 1e18f ? positive : 1e18f));
   };
-  constexpr std::size_t kBlock = 128;
-  std::array<glm::uvec3, kBlock> bits;
-  for (std::size_t start = 0; start < radiance.size(); start += kBlock) {
-    const std::size_t size = std::min(kBlock, radiance.size() - start);
+  constexpr std::size_t block = 128;
+  std::array<glm::uvec3, block> bits;
+  for (std::size_t start = 0; start < radiance.size(); start += block) {
+    const std::size_t size = std::min(block, radiance.size() - start);
     for (std::size_t i = 0; i < size; ++i) {
       const glm::vec3 c = radiance[start + i];
       bits[i] = {bits_of(c.r), bits_of(c.g), bits_of(c.b)};
@@ -49,7 +49,7 @@ void encode(std::span<const glm::vec3> radiance, float scale, std::span<Rgba8> d
   }
 }
 
-constexpr std::array kToneMaps{
+constexpr std::array tone_map_table{
     ToneMapRow{ToneMap::clamp, "clamp", "Clamp", "radiance above 1 is cut to 1",
                encode<clamp_curve>},
     ToneMapRow{ToneMap::reinhard, "reinhard", "Reinhard",
@@ -63,7 +63,7 @@ constexpr std::array kToneMaps{
 }  // namespace
 
 std::span<const ToneMapRow> tone_maps() {
-  return kToneMaps;
+  return tone_map_table;
 }
 
 const ToneMapRow& tone_map_row(ToneMap key) {

@@ -27,7 +27,7 @@ const ToneMapRow& find_tone_map(std::string_view id);
 /// The one way from linear radiance to display pixels, for the window and for files: times
 /// 2^exposure_stops, through the tone map, to sRGB rounded to 8 bits. Negative and NaN become 0,
 /// infinity becomes 1. The second form allocates nothing; its spans have the same size.
-DisplayImage to_display(const RadianceImage& radiance, float exposure_stops = 0.f,
+DisplayImage to_display(const RadianceImage& radiance, float exposure_stops = 0.0f,
                         ToneMap tone_map = ToneMap::clamp);
 void to_display(std::span<const glm::vec3> radiance, float exposure_stops, ToneMap tone_map,
                 std::span<Rgba8> display);

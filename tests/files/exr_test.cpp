@@ -15,7 +15,7 @@ std::vector<float> noise(std::size_t size, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<float> values(size);
   for (float& value : values) {
-    value = std::exp(std::normal_distribution<float>(0.f, 5.f)(random));
+    value = std::exp(std::normal_distribution<float>(0.0f, 5.0f)(random));
   }
   return values;
 }
@@ -30,7 +30,7 @@ TEST(Exr, FloatsCountsAndTextSurviveARoundTrip) {
   const std::size_t size = 33UL * 21;
   // Not in alphabetical order, which is the file's.
   for (const char* name : {"Variance.R", "R", "Error.kl", "B", "G"}) {
-    image.add(name, noise(size, static_cast<unsigned>(name[0])));
+    image.add(name, noise(size, unsigned(name[0])));
   }
   std::get<std::vector<float>>(image.channels[0].pixels)[5] =
       std::numeric_limits<float>::infinity();
@@ -57,20 +57,20 @@ TEST(Exr, FloatsCountsAndTextSurviveARoundTrip) {
 TEST(Exr, HalfsAreReadAsFloats) {
   const TempFolder folder;
   ExrImage image(4, 1);
-  image.add("Y", std::vector<float>{0.5f, -2.f, 65504.f, 0.1f});
+  image.add("Y", std::vector<float>{0.5f, -2.0f, 65504.0f, 0.1f});
   image.channels[0].half = true;
   write_exr(folder / "a.exr", image);
   const ExrImage read = read_exr(folder / "a.exr");
   EXPECT_TRUE(read.find("Y")->half);
   // 0.1 rounded to 11 significant bits.
-  EXPECT_EQ(floats(read, "Y"), (std::vector<float>{0.5f, -2.f, 65504.f, 0.0999755859375f}));
+  EXPECT_EQ(floats(read, "Y"), (std::vector<float>{0.5f, -2.0f, 65504.0f, 0.0999755859375f}));
 }
 
 TEST(Exr, RadianceIsRgbInThisOrder) {
   const TempFolder folder;
   RadianceImage radiance(3, 2);
   for (int i = 0; i < 6; ++i) {
-    radiance.pixels()[static_cast<std::size_t>(i)] = glm::vec3(i, 10 + i, 20 + i);
+    radiance.pixels()[std::size_t(i)] = glm::vec3(i, 10 + i, 20 + i);
   }
   ExrImage image(3, 2);
   image.add_radiance(radiance);
@@ -80,8 +80,8 @@ TEST(Exr, RadianceIsRgbInThisOrder) {
 
 TEST(Exr, RadianceNeedsItsChannels) {
   ExrImage image(1, 1);
-  image.add("R", std::vector<float>{1.f});
-  image.add("B", std::vector<float>{1.f});
+  image.add("R", std::vector<float>{1.0f});
+  image.add("B", std::vector<float>{1.0f});
   EXPECT_EQ(error_of([&] { radiance_of(image, "dir/a.exr"); }),
             "dir/a.exr: no channel G of float or half; R, G and B are needed, there are: R, B");
 }
@@ -89,7 +89,7 @@ TEST(Exr, RadianceNeedsItsChannels) {
 TEST(Exr, ACroppedImageKeepsItsPlaceAndIsRefusedAsRadiance) {
   const TempFolder folder;
   ExrImage image(3, 2);
-  image.add_radiance(RadianceImage(3, 2, glm::vec3(0.25f, 0.5f, 1.f)));
+  image.add_radiance(RadianceImage(3, 2, glm::vec3(0.25f, 0.5f, 1.0f)));
   std::get<std::vector<float>>(image.channels[0].pixels) = {1, 2, 3, 4, 5, 6};
   image.data = {-5, 7, 3, 2};
   image.display = {0, 0, 100, 50};
@@ -107,18 +107,18 @@ TEST(Exr, PixelsBeyondThePictureAreLeftOutOfItsRadiance) {
   ExrImage image(5, 3);
   image.display = {0, 0, 2, 1};
   image.data = {-2, -1, 5, 3};
-  for (const auto& [name, first] : {std::pair{"B", 200.f}, {"G", 100.f}, {"R", 0.f}}) {
+  for (const auto& [name, first] : {std::pair{"B", 200.0f}, {"G", 100.0f}, {"R", 0.0f}}) {
     std::vector<float> pixels(15);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      pixels[i] = first + static_cast<float>(i);
+      pixels[i] = first + float(i);
     }
     image.add(name, std::move(pixels));
   }
   const RadianceImage radiance = radiance_of(image, "a.exr");
   ASSERT_EQ(radiance.width(), 2);
   ASSERT_EQ(radiance.height(), 1);
-  EXPECT_EQ(radiance.at(0, 0), glm::vec3(7.f, 107.f, 207.f));
-  EXPECT_EQ(radiance.at(1, 0), glm::vec3(8.f, 108.f, 208.f));
+  EXPECT_EQ(radiance.at(0, 0), glm::vec3(7.0f, 107.0f, 207.0f));
+  EXPECT_EQ(radiance.at(1, 0), glm::vec3(8.0f, 108.0f, 208.0f));
   // One column short on the right.
   image.display = {0, 0, 4, 1};
   EXPECT_NE(error_of([&] { radiance_of(image, "a.exr"); }).find("5x3 at (-2, -1)"),
@@ -154,7 +154,7 @@ std::string error_with_width(std::uint32_t width, int height) {
   const std::size_t at = bytes.find(window);
   EXPECT_NE(at, std::string::npos);
   for (std::size_t i = 0; i < 4; ++i) {
-    bytes.at(at + window.size() + 8 + i) = static_cast<char>((width - 1) >> (8 * i));
+    bytes.at(at + window.size() + 8 + i) = char((width - 1) >> (8 * i));
   }
   write_bytes_to(folder / "a.exr", bytes);
   return error_of([&] { read_exr(folder / "a.exr"); });
@@ -191,7 +191,7 @@ TEST(Exr, DamagedFilesAreOneLineWithThePath) {
 TEST(Exr, AFullDiskIsAnErrorForSmallAndLargeImages) {
   for (const int size : {2, 500}) {
     ExrImage image(size, size);
-    image.add("Y", noise(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), 1));
+    image.add("Y", noise(std::size_t(size) * std::size_t(size), 1));
     EXPECT_EQ(error_of([&] { write_exr("/dev/full", image); }),
               "cannot write /dev/full: No space left on device");
   }

@@ -13,7 +13,7 @@ DisplayImage noise(int width, int height, bool opaque) {
   std::mt19937 random(7);
   DisplayImage image(width, height);
   for (Rgba8& pixel : image.pixels()) {
-    const auto byte = [&] { return static_cast<std::uint8_t>(random()); };
+    const auto byte = [&] { return std::uint8_t(random()); };
     pixel = {byte(), byte(), byte(), opaque ? std::uint8_t(255) : byte()};
   }
   return image;

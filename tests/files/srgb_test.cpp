@@ -10,7 +10,7 @@ namespace quartet {
 namespace {
 
 int direct(float x) {
-  return static_cast<int>(std::lround(255.0 * srgb_encode(x)));
+  return int(std::lround(255.0 * srgb_encode(x)));
 }
 
 TEST(Srgb, EncodeAndDecodeAreInverse) {
@@ -26,7 +26,7 @@ TEST(Srgb, EncodeAndDecodeAreInverse) {
 TEST(Srgb8Encoder, EqualsTheFormulaOverAllOctaves) {
   const Srgb8Encoder& encode = srgb8_encoder();
   // Every 61st float from 0 to 1.
-  const std::uint32_t one = std::bit_cast<std::uint32_t>(1.f);
+  const std::uint32_t one = std::bit_cast<std::uint32_t>(1.0f);
   int different = 0;
   for (std::uint32_t bits = std::bit_cast<std::uint32_t>(0x1p-16f); bits <= one; bits += 61) {
     const float x = std::bit_cast<float>(bits);
@@ -39,8 +39,7 @@ TEST(Srgb8Encoder, EqualsTheFormulaAroundEveryStep) {
   const Srgb8Encoder& encode = srgb8_encoder();
   int different = 0;
   for (int value = 1; value <= 255; ++value) {
-    const auto step =
-        std::bit_cast<std::uint32_t>(static_cast<float>(srgb_decode((value - 0.5) / 255.0)));
+    const auto step = std::bit_cast<std::uint32_t>(float(srgb_decode((value - 0.5) / 255.0)));
     for (std::uint32_t bits = step - 1500; bits <= step + 1500; ++bits) {
       const float x = std::bit_cast<float>(bits);
       different += encode(x) != direct(x);
@@ -51,17 +50,17 @@ TEST(Srgb8Encoder, EqualsTheFormulaAroundEveryStep) {
 
 TEST(Srgb8Encoder, EightBitValuesSurviveARoundTrip) {
   for (int value = 0; value <= 255; ++value) {
-    EXPECT_EQ(srgb8_encoder()(static_cast<float>(srgb_decode(value / 255.0))), value);
+    EXPECT_EQ(srgb8_encoder()(float(srgb_decode(value / 255.0))), value);
   }
 }
 
 TEST(Srgb8Encoder, ClampsAndTakesNaNAsBlack) {
   const Srgb8Encoder& encode = srgb8_encoder();
-  EXPECT_EQ(encode(0.f), 0);
-  EXPECT_EQ(encode(-0.f), 0);
-  EXPECT_EQ(encode(-5.f), 0);
-  EXPECT_EQ(encode(1.f), 255);
-  EXPECT_EQ(encode(7.f), 255);
+  EXPECT_EQ(encode(0.0f), 0);
+  EXPECT_EQ(encode(-0.0f), 0);
+  EXPECT_EQ(encode(-5.0f), 0);
+  EXPECT_EQ(encode(1.0f), 255);
+  EXPECT_EQ(encode(7.0f), 255);
   EXPECT_EQ(encode(std::numeric_limits<float>::denorm_min()), 0);
   EXPECT_EQ(encode(std::numeric_limits<float>::infinity()), 255);
   EXPECT_EQ(encode(-std::numeric_limits<float>::infinity()), 0);

@@ -16,8 +16,8 @@
 namespace quartet {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double value(MetricId id, const RadianceImage& test, const RadianceImage& reference) {
   return metric(id).compute(test, reference);
@@ -201,7 +201,7 @@ TEST(Metrics, OfHugeAndTinyRadianceAreFinite) {
 
 TEST(Metrics, NameThePlaceOfWhatIsNotFinite) {
   const RadianceImage good(40, 30, glm::vec3(0.5f));
-  for (const float bad : {kNan, kInfinity, -kInfinity}) {
+  for (const float bad : {not_a_number, infinity, -infinity}) {
     RadianceImage image = good;
     image.at(37, 29).b = bad;
     for (const Metric& row : metrics()) {

@@ -16,9 +16,8 @@ DisplayImage gradient(int width, int height, int seed) {
   DisplayImage image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      image.at(x, y) = {static_cast<std::uint8_t>(x * 255 / width),
-                        static_cast<std::uint8_t>(y * 255 / height),
-                        static_cast<std::uint8_t>(60 * seed), 255};
+      image.at(x, y) = {std::uint8_t(x * 255 / width), std::uint8_t(y * 255 / height),
+                        std::uint8_t(60 * seed), 255};
     }
   }
   return image;
@@ -145,13 +144,12 @@ TEST(FigurePng, HoldsEachPictureUnchangedAndInkOnlyInsideTheBoxes) {
     ASSERT_EQ(page.height(), layout.height);
 
     for (const PlacedImage& placed : layout.images) {
-      const int factor = static_cast<int>(placed.box.width) / placed.image->width();
+      const int factor = int(placed.box.width) / placed.image->width();
       int different = 0;
       for (int y = 0; y < placed.box.height; ++y) {
         for (int x = 0; x < placed.box.width; ++x) {
-          different +=
-              page.at(static_cast<int>(placed.box.x) + x, static_cast<int>(placed.box.y) + y) !=
-              placed.image->at(x / factor, y / factor);
+          different += page.at(int(placed.box.x) + x, int(placed.box.y) + y) !=
+                       placed.image->at(x / factor, y / factor);
         }
       }
       EXPECT_EQ(different, 0);
@@ -209,8 +207,8 @@ TEST(FigurePng, TheBarRunsFromTheColourOfMinToThatOfMax) {
   ASSERT_EQ(layout.bars.size(), 1u);
   const Rect bar = layout.bars[0].box;
   const int y = int(bar.y + bar.height / 2);
-  EXPECT_EQ(page.at(int(bar.x), y), sample(ColorMapId::turbo, 0.f));
-  EXPECT_EQ(page.at(int(bar.right()) - 1, y), sample(ColorMapId::turbo, 1.f));
+  EXPECT_EQ(page.at(int(bar.x), y), sample(ColorMapId::turbo, 0.0f));
+  EXPECT_EQ(page.at(int(bar.right()) - 1, y), sample(ColorMapId::turbo, 1.0f));
   for (const char* text : {"samples per pixel", "at the maximum", "0", "71"}) {
     EXPECT_EQ(std::ranges::count(layout.texts, text, &PlacedText::text), 1) << text;
   }

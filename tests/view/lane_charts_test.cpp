@@ -86,7 +86,7 @@ TEST(SampleChart, HasABarACountInTheColoursOfTheHeatmap) {
   EXPECT_EQ(chart.bars[4].end, 6.0);
   EXPECT_EQ(chart.bars[4].value, 25.0);
   EXPECT_EQ(chart.bars[4].color, sample(ColorMapId::turbo, 5.0f / 40.0f));
-  EXPECT_EQ(chart.bars[39].color, kCapColor);
+  EXPECT_EQ(chart.bars[39].color, cap_color);
   EXPECT_EQ(chart.y.spacing, Spacing::logarithmic);
   EXPECT_EQ(reading_at(chart, 5.5), "samples 5 to 6, pixels: 25");
   EXPECT_EQ(reading_at(chart, 100.0), "");

@@ -17,29 +17,29 @@ Rgba8 display_of(glm::vec3 radiance, float stops, ToneMap tone_map) {
 }
 
 std::uint8_t encoded(double linear) {
-  return static_cast<std::uint8_t>(std::lround(255.0 * srgb_encode(linear)));
+  return std::uint8_t(std::lround(255.0 * srgb_encode(linear)));
 }
 
 TEST(ToneMap, ClampIsTheSrgbCurveCutAtOne) {
-  EXPECT_EQ(display_of({0.18f, 0.5f, 3.f}, 0.f, ToneMap::clamp),
+  EXPECT_EQ(display_of({0.18f, 0.5f, 3.0f}, 0.0f, ToneMap::clamp),
             (Rgba8{encoded(0.18), encoded(0.5), 255, 255}));
 }
 
 TEST(ToneMap, ExposureIsInStops) {
-  EXPECT_EQ(display_of({0.1f, 0.2f, 0.3f}, 1.f, ToneMap::clamp),
-            display_of({0.2f, 0.4f, 0.6f}, 0.f, ToneMap::clamp));
-  EXPECT_EQ(display_of({0.8f, 0.4f, 0.2f}, -2.f, ToneMap::clamp),
-            display_of({0.2f, 0.1f, 0.05f}, 0.f, ToneMap::clamp));
+  EXPECT_EQ(display_of({0.1f, 0.2f, 0.3f}, 1.0f, ToneMap::clamp),
+            display_of({0.2f, 0.4f, 0.6f}, 0.0f, ToneMap::clamp));
+  EXPECT_EQ(display_of({0.8f, 0.4f, 0.2f}, -2.0f, ToneMap::clamp),
+            display_of({0.2f, 0.1f, 0.05f}, 0.0f, ToneMap::clamp));
 }
 
 TEST(ToneMap, ReinhardHalvesOne) {
-  EXPECT_EQ(display_of({1.f, 3.f, 0.f}, 0.f, ToneMap::reinhard),
+  EXPECT_EQ(display_of({1.0f, 3.0f, 0.0f}, 0.0f, ToneMap::reinhard),
             (Rgba8{encoded(0.5), encoded(0.75), 0, 255}));
 }
 
 TEST(ToneMap, FilmicAtOne) {
   // (2.51 + 0.03) / (2.43 + 0.59 + 0.14)
-  EXPECT_EQ(display_of({1.f, 1.f, 1.f}, 0.f, ToneMap::filmic).r, encoded(2.54 / 3.16));
+  EXPECT_EQ(display_of({1.0f, 1.0f, 1.0f}, 0.0f, ToneMap::filmic).r, encoded(2.54 / 3.16));
 }
 
 TEST(ToneMap, EveryRowIsMonotoneFromBlackAndSurvivesBadNumbers) {
@@ -47,11 +47,11 @@ TEST(ToneMap, EveryRowIsMonotoneFromBlackAndSurvivesBadNumbers) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const ToneMapRow& row : tone_maps()) {
     SCOPED_TRACE(row.id);
-    EXPECT_EQ(display_of({0.f, -1.f, nan}, 0.f, row.key), (Rgba8{0, 0, 0, 255}));
-    EXPECT_EQ(display_of({inf, 3e38f, 3e38f}, 4.f, row.key), (Rgba8{255, 255, 255, 255}));
+    EXPECT_EQ(display_of({0.0f, -1.0f, nan}, 0.0f, row.key), (Rgba8{0, 0, 0, 255}));
+    EXPECT_EQ(display_of({inf, 3e38f, 3e38f}, 4.0f, row.key), (Rgba8{255, 255, 255, 255}));
     int last = 0;
     for (float x = 1e-5f; x < 1e6f; x *= 1.01f) {
-      const int value = display_of(glm::vec3(x), 0.f, row.key).g;
+      const int value = display_of(glm::vec3(x), 0.0f, row.key).g;
       EXPECT_GE(value, last) << x;
       last = value;
     }
@@ -62,7 +62,7 @@ TEST(ToneMap, EveryRowIsMonotoneFromBlackAndSurvivesBadNumbers) {
 TEST(ToneMap, EveryPixelOfALongImageIsEncodedAlone) {
   RadianceImage radiance(1000, 1);
   for (int x = 0; x < 1000; ++x) {
-    radiance.at(x, 0) = glm::vec3(0.001f, 0.0007f, 0.0003f) * static_cast<float>(x);
+    radiance.at(x, 0) = glm::vec3(0.001f, 0.0007f, 0.0003f) * float(x);
   }
   for (const ToneMapRow& row : tone_maps()) {
     const DisplayImage display = to_display(radiance, 0.5f, row.key);
@@ -84,7 +84,7 @@ TEST(ToneMap, RowsHaveDistinctIdsThatAreFound) {
 
 TEST(ToneMap, PixelsStayWhereTheyAre) {
   RadianceImage radiance(3, 2);
-  radiance.at(2, 1) = {1.f, 0.f, 0.f};
+  radiance.at(2, 1) = {1.0f, 0.0f, 0.0f};
   const DisplayImage display = to_display(radiance);
   EXPECT_EQ(display.width(), 3);
   EXPECT_EQ(display.height(), 2);

@@ -179,7 +179,7 @@ TEST(Views, LinkedHeatmapsShareAScaleAndReportOnesDoNot) {
   EXPECT_EQ(heat_scale(snapshot, 1, HeatRange::report), (ColorScale{3, 40, ColorMapId::report}));
   snapshot.lanes[1].settings.max_spp = 40;
   const View view = draw_view(snapshot, 1, ViewKind::heatmap, {});
-  EXPECT_EQ(view.image.at(1, 0), kCapColor);
+  EXPECT_EQ(view.image.at(1, 0), cap_color);
   EXPECT_EQ(view.bar->cap_label, "the maximum of 40 spp");
 }
 

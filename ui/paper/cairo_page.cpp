@@ -19,7 +19,7 @@ namespace {
 using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Cairo = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-constexpr double kPdfLinePoints = 7.0;  // a paper's caption, at the size of the page's lines
+constexpr double pdf_line_points = 7.0;  // a paper's caption, at the size of the page's lines
 
 CairoSurface owned(cairo_surface_t* surface) {
   return {surface, cairo_surface_destroy};
@@ -40,7 +40,7 @@ DisplayImage image_of(cairo_surface_t* surface) {
   for (int y = 0; y < image.height(); ++y) {
     const auto* row = reinterpret_cast<const std::uint32_t*>(data + y * stride);
     for (int x = 0; x < image.width(); ++x) {
-      const auto byte = [&](int shift) { return static_cast<std::uint8_t>(row[x] >> shift); };
+      const auto byte = [&](int shift) { return std::uint8_t(row[x] >> shift); };
       image.at(x, y) = {byte(16), byte(8), byte(0), 255};
     }
   }
@@ -63,7 +63,7 @@ using CreateSurface = cairo_surface_t* (*)(cairo_write_func_t, void*, double, do
 template <class Prepare>
 void write_vector(const CairoPage& page, const std::filesystem::path& path, CreateSurface create,
                   Prepare prepare) {
-  const double points = kPdfLinePoints / page.line_size;
+  const double points = pdf_line_points / page.line_size;
   FileWriter file(path);
   const CairoSurface surface =
       owned(create(write_bytes, &file, page.width * points, page.height * points));
@@ -96,14 +96,14 @@ void paint_text(cairo_t* cairo, const PlacedText& text) {
 }
 
 void write_page_png(const CairoPage& page, const std::filesystem::path& path) {
-  if (page.width > kMaxCairoSide || page.height > kMaxCairoSide) {
+  if (page.width > max_cairo_side || page.height > max_cairo_side) {
     throw std::runtime_error(fmt::format(
         "cannot write {}: a figure of {:.0f}x{:.0f} pixels is too large; smaller panels, so that "
         "it stays within {}x{}, would be right",
-        path.string(), page.width, page.height, kMaxCairoSide, kMaxCairoSide));
+        path.string(), page.width, page.height, max_cairo_side, max_cairo_side));
   }
-  const CairoSurface surface = owned(cairo_image_surface_create(
-      CAIRO_FORMAT_RGB24, static_cast<int>(page.width), static_cast<int>(page.height)));
+  const CairoSurface surface =
+      owned(cairo_image_surface_create(CAIRO_FORMAT_RGB24, int(page.width), int(page.height)));
   const Cairo cairo(cairo_create(surface.get()), cairo_destroy);
   paint_page(cairo.get(), page);
   if (const cairo_status_t status = cairo_status(cairo.get()); status != CAIRO_STATUS_SUCCESS) {

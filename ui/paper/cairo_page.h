@@ -25,7 +25,7 @@ void write_page_png(const CairoPage& page, const std::filesystem::path& path);
 void write_page_pdf(const CairoPage& page, const std::filesystem::path& path);
 void write_page_svg(const CairoPage& page, const std::filesystem::path& path);
 
-inline constexpr int kMaxCairoSide = 32767;
+inline constexpr int max_cairo_side = 32767;
 
 void paint_text(cairo_t* cairo, const PlacedText& text);
 

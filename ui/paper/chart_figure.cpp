@@ -13,9 +13,9 @@
 namespace quartet {
 namespace {
 
-constexpr double kLineWidth = 2.2;
-constexpr double kDotRadius = 3.6;
-constexpr double kMarkRadius = 7.0;
+constexpr double line_width = 2.2;
+constexpr double dot_radius = 3.6;
+constexpr double mark_radius = 7.0;
 
 void set_color(cairo_t* cairo, Rgba8 color) {
   cairo_set_source_rgba(cairo, color.r / 255.0, color.g / 255.0, color.b / 255.0, color.a / 255.0);
@@ -28,7 +28,7 @@ void set_dashes(cairo_t* cairo, bool dashed) {
 
 void stroke(cairo_t* cairo, std::span<const glm::dvec2> points, const Line& line) {
   set_color(cairo, line.color);
-  cairo_set_line_width(cairo, kLineWidth * double(line.width));
+  cairo_set_line_width(cairo, line_width * double(line.width));
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   set_dashes(cairo, line.dashed);
   for (const glm::dvec2& point : points) {
@@ -38,7 +38,7 @@ void stroke(cairo_t* cairo, std::span<const glm::dvec2> points, const Line& line
   set_dashes(cairo, false);
   if (line.dots) {
     for (const glm::dvec2& point : points) {
-      cairo_arc(cairo, point.x, point.y, kDotRadius, 0.0, 2.0 * M_PI);
+      cairo_arc(cairo, point.x, point.y, dot_radius, 0.0, 2.0 * M_PI);
       cairo_fill(cairo);
     }
   }
@@ -58,7 +58,7 @@ void stroke_level(cairo_t* cairo, double left, double right, double y, Rgba8 col
 
 /// With a rim of paper, so that it is seen on a line of its own colour.
 void fill_mark(cairo_t* cairo, glm::dvec2 at, const PointMark& mark) {
-  const double r = kMarkRadius;
+  const double r = mark_radius;
   cairo_new_path(cairo);
   switch (mark.shape) {
     case MarkShape::dot:
@@ -169,7 +169,7 @@ void paint_data(cairo_t* cairo, const PlacedChart& placed) {
   for (const Marker& marker : chart.markers) {
     const double x = placed.x(marker.value);
     set_color(cairo, marker.color);
-    cairo_set_line_width(cairo, kLineWidth);
+    cairo_set_line_width(cairo, line_width);
     cairo_move_to(cairo, x, area.y);
     cairo_line_to(cairo, x, area.bottom());
     cairo_stroke(cairo);
@@ -199,7 +199,7 @@ void paint_sample(cairo_t* cairo, const LegendEntry& entry) {
     plain.dots = false;
     stroke(cairo, ends, plain);
     if (line->dots) {
-      cairo_arc(cairo, box.x + box.width / 2, middle, kDotRadius, 0.0, 2.0 * M_PI);
+      cairo_arc(cairo, box.x + box.width / 2, middle, dot_radius, 0.0, 2.0 * M_PI);
       cairo_fill(cairo);
     }
   } else if (const auto* band = std::get_if<Band>(&entry.sample)) {

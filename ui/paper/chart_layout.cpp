@@ -8,12 +8,12 @@
 namespace quartet {
 namespace {
 
-constexpr double kLine = 17.0;  // size of the text, in pixels of the PNG
+constexpr double line_size = 17.0;  // size of the text, in pixels of the PNG
 constexpr double chart_line_height = 1.35;
 constexpr double chart_gray = 0.35;
-constexpr double kAreaWidth = 640.0;
-constexpr double kAreaHeight = 470.0;
-constexpr double kSampleWidth = 2.4 * kLine;
+constexpr double area_width = 640.0;
+constexpr double area_height = 470.0;
+constexpr double sample_width = 2.4 * line_size;
 
 /// Puts charts and texts into a layout, from the top down.
 class ChartBuilder {
@@ -26,38 +26,38 @@ class ChartBuilder {
         tick_width_ = std::max(tick_width_, measure_.width(tick.label, tick_style()));
       }
     }
-    tick_width_ = std::ceil(tick_width_ + 0.6 * kLine);
-    cell_width_ = tick_width_ + kAreaWidth + kLine;
-    page_width_ = columns_ * cell_width_ + (columns_ - 1) * kGap;
+    tick_width_ = std::ceil(tick_width_ + 0.6 * line_size);
+    cell_width_ = tick_width_ + area_width + line_size;
+    page_width_ = columns_ * cell_width_ + (columns_ - 1) * gap;
   }
 
   ChartLayout build() {
-    y_ = kMargin;
-    add_text(figure_.title, {1.4 * kLine, true}, kMargin, page_width_, 3);
+    y_ = margin;
+    add_text(figure_.title, {1.4 * line_size, true}, margin, page_width_, 3);
     for (const std::string& line : figure_.lines) {
-      add_text(line, line_style(), kMargin, page_width_, 4);
+      add_text(line, line_style(), margin, page_width_, 4);
     }
     for (std::size_t first = 0; first < figure_.charts.size(); first += std::size_t(columns_)) {
-      y_ += 1.2 * kLine;
+      y_ += 1.2 * line_size;
       add_row(first);
     }
     add_legend();
     if (!figure_.footer.empty()) {
-      y_ += 0.8 * kLine;
-      add_text(figure_.footer, {0.85 * kLine, false, 0.45}, kMargin, page_width_, 6);
+      y_ += 0.8 * line_size;
+      add_text(figure_.footer, {0.85 * line_size, false, 0.45}, margin, page_width_, 6);
     }
-    layout_.width = page_width_ + 2 * kMargin;
-    layout_.height = std::ceil(y_ + kMargin);
-    layout_.line_size = kLine;
+    layout_.width = page_width_ + 2 * margin;
+    layout_.height = std::ceil(y_ + margin);
+    layout_.line_size = line_size;
     return std::move(layout_);
   }
 
  private:
-  static constexpr double kMargin = 1.6 * kLine;
-  static constexpr double kGap = 1.6 * kLine;
+  static constexpr double margin = 1.6 * line_size;
+  static constexpr double gap = 1.6 * line_size;
 
-  static TextStyle line_style() { return {kLine, false, chart_gray}; }
-  static TextStyle tick_style() { return {0.9 * kLine, false, chart_gray}; }
+  static TextStyle line_style() { return {line_size, false, chart_gray}; }
+  static TextStyle tick_style() { return {0.9 * line_size, false, chart_gray}; }
 
   void put(const std::string& text, const TextStyle& style, double x, double y) {
     layout_.texts.push_back({text,
@@ -80,43 +80,43 @@ class ChartBuilder {
     const std::size_t end = std::min(first + std::size_t(columns_), figure_.charts.size());
     for (std::size_t i = first; i < end; ++i) {
       y_ = top;
-      const double x = kMargin + double(i - first) * (cell_width_ + kGap);
+      const double x = margin + double(i - first) * (cell_width_ + gap);
       const Chart& chart = figure_.charts[i];
-      add_text(chart.title, {1.1 * kLine, true}, x, cell_width_, 2);
+      add_text(chart.title, {1.1 * line_size, true}, x, cell_width_, 2);
       // Above its axis, where it need not be turned to be read.
       add_text(chart.y.label, line_style(), x, cell_width_, 2);
       below = std::max(below, y_);
     }
-    const double area_top = std::ceil(below + 0.5 * kLine);
+    const double area_top = std::ceil(below + 0.5 * line_size);
     for (std::size_t i = first; i < end; ++i) {
-      const double x = kMargin + double(i - first) * (cell_width_ + kGap);
+      const double x = margin + double(i - first) * (cell_width_ + gap);
       add_chart(figure_.charts[i],
-                {std::round(x + tick_width_), area_top, kAreaWidth, kAreaHeight});
+                {std::round(x + tick_width_), area_top, area_width, area_height});
     }
-    y_ = area_top + kAreaHeight + 0.8 * kLine + 2 * chart_line_height * kLine;
+    y_ = area_top + area_height + 0.8 * line_size + 2 * chart_line_height * line_size;
   }
 
   void add_chart(const Chart& chart, const Rect& area) {
     PlacedChart placed{&chart, area, {}, {}};
     double taken = area.x - tick_width_;
-    const double tick_top = area.bottom() + 0.7 * kLine;
+    const double tick_top = area.bottom() + 0.7 * line_size;
     for (const Tick& tick : chart.x.ticks) {
       placed.x_grid.push_back(tick);
       const double width = measure_.width(tick.label, tick_style());
       const double left = placed.x(tick.value) - width / 2;
       // A number that would touch the one before is left out; its line stays.
-      if (left >= taken && left + width <= area.right() + kLine) {
+      if (left >= taken && left + width <= area.right() + line_size) {
         put(tick.label, tick_style(), left, tick_top);
-        taken = left + width + 0.5 * kLine;
+        taken = left + width + 0.5 * line_size;
       }
     }
-    double above = area.bottom() + kLine;
+    double above = area.bottom() + line_size;
     for (const Tick& tick : chart.y.ticks) {
       placed.y_grid.push_back(tick);
       const double width = measure_.width(tick.label, tick_style());
       const double top = placed.y(tick.value) - 0.5 * chart_line_height * tick_style().size;
       if (top + chart_line_height * tick_style().size <= above) {
-        put(tick.label, tick_style(), area.x - width - 0.4 * kLine, top);
+        put(tick.label, tick_style(), area.x - width - 0.4 * line_size, top);
         above = top;
       }
     }
@@ -124,7 +124,7 @@ class ChartBuilder {
     if (!label.empty()) {
       const double width = measure_.width(label[0], line_style());
       put(label[0], line_style(), area.x + (area.width - width) / 2,
-          tick_top + chart_line_height * kLine);
+          tick_top + chart_line_height * line_size);
     }
     layout_.charts.push_back(std::move(placed));
   }
@@ -135,24 +135,24 @@ class ChartBuilder {
     if (entries.empty()) {
       return;
     }
-    y_ += 0.8 * kLine;
+    y_ += 0.8 * line_size;
     double widest = 0.0;
     for (const auto& [label, sample] : entries) {
       widest = std::max(widest, measure_.width(clean_text(label), line_style()));
     }
-    const double lead = kSampleWidth + 0.6 * kLine;
-    const double column = std::min(lead + widest + 1.6 * kLine, page_width_);
+    const double lead = sample_width + 0.6 * line_size;
+    const double column = std::min(lead + widest + 1.6 * line_size, page_width_);
     const int columns = std::max(1, int(page_width_ / column));
     const double top = y_;
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const int row = int(i) / columns;
-      const double x = kMargin + double(int(i) % columns) * column;
-      const double y = top + double(row) * 1.5 * kLine;
+      const double x = margin + double(int(i) % columns) * column;
+      const double y = top + double(row) * 1.5 * line_size;
       layout_.legend.push_back(
-          {entries[i].second, {x, y, kSampleWidth, chart_line_height * kLine}});
+          {entries[i].second, {x, y, sample_width, chart_line_height * line_size}});
       const auto text = measure_.wrap(entries[i].first, line_style(), column - lead, 1);
       put(text.at(0), line_style(), x + lead, y);
-      y_ = y + 1.5 * kLine;
+      y_ = y + 1.5 * line_size;
     }
   }
 

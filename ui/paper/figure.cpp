@@ -17,7 +17,7 @@ namespace {
 using PictureSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
 std::uint32_t over_white(std::uint8_t value, std::uint8_t alpha) {
-  return static_cast<std::uint32_t>(255 + (int(value) - 255) * int(alpha) / 255);
+  return std::uint32_t(255 + (int(value) - 255) * int(alpha) / 255);
 }
 
 PictureSurface surface_of(const DisplayImage& image) {
@@ -27,7 +27,7 @@ PictureSurface surface_of(const DisplayImage& image) {
   if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) {
     throw std::runtime_error(
         fmt::format("a picture of {}x{} is too large for a figure; at most {}x{} would be right",
-                    image.width(), image.height(), kMaxCairoSide, kMaxCairoSide));
+                    image.width(), image.height(), max_cairo_side, max_cairo_side));
   }
   cairo_surface_flush(surface.get());
   unsigned char* data = cairo_image_surface_get_data(surface.get());
@@ -58,10 +58,10 @@ void paint_image(cairo_t* cairo, const DisplayImage& image, const Rect& box) {
 }
 
 void paint_colors(cairo_t* cairo, const PlacedColors& bar) {
-  constexpr int kSteps = 1024;
-  DisplayImage colors(kSteps, 1);
-  for (int x = 0; x < kSteps; ++x) {
-    colors.at(x, 0) = sample(bar.color_map, static_cast<float>(x) / static_cast<float>(kSteps - 1));
+  constexpr int steps = 1024;
+  DisplayImage colors(steps, 1);
+  for (int x = 0; x < steps; ++x) {
+    colors.at(x, 0) = sample(bar.color_map, float(x) / float(steps - 1));
   }
   paint_image(cairo, colors, bar.box);
 }

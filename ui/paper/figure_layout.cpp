@@ -10,8 +10,8 @@ namespace quartet {
 
 namespace {
 
-constexpr int kMinPanelWidth = 480;   // below, small pictures are enlarged
-constexpr int kMaxEnlarged = 1920;    // but no side beyond this
+constexpr int min_panel_width = 480;  // below, small pictures are enlarged
+constexpr int max_enlarged = 1920;    // but no side beyond this
 constexpr double line_height = 1.35;  // of the em
 constexpr double figure_gray = 0.35;
 
@@ -24,8 +24,8 @@ int enlargement(const Figure& figure) {
     width = std::max(width, panel.image.width());
     height = std::max(height, panel.image.height());
   }
-  const int wanted = (kMinPanelWidth + width - 1) / width;
-  return std::clamp(wanted, 1, std::max(1, kMaxEnlarged / std::max(width, height)));
+  const int wanted = (min_panel_width + width - 1) / width;
+  return std::clamp(wanted, 1, std::max(1, max_enlarged / std::max(width, height)));
 }
 
 /// Puts blocks of text, pictures and bars into a layout, from the top down.
@@ -35,9 +35,9 @@ class FigureBuilder {
     for (const FigurePanel& panel : figure.panels) {
       cell_width_ = std::max(cell_width_, panel.image.width() * factor_);
     }
-    const int count = std::max(1, static_cast<int>(figure.panels.size()));
+    const int count = std::max(1, int(figure.panels.size()));
     columns_ = std::clamp(figure.columns, 1, count);
-    rows_ = (static_cast<int>(figure.panels.size()) + columns_ - 1) / columns_;
+    rows_ = (int(figure.panels.size()) + columns_ - 1) / columns_;
     choose_line_size();
     margin_ = std::round(1.6 * line_);
     gap_ = std::round(1.2 * line_);
@@ -119,8 +119,7 @@ class FigureBuilder {
     int image_height = 0;
     const auto for_each_panel = [&](auto place) {
       for (int column = 0; column < columns_; ++column) {
-        const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                       static_cast<std::size_t>(column);
+        const auto i = std::size_t(row) * std::size_t(columns_) + std::size_t(column);
         if (i < figure_.panels.size()) {
           y_ = top;
           place(figure_.panels[i], margin_ + column * (cell_width_ + gap_));
@@ -162,7 +161,7 @@ class FigureBuilder {
       const double text_x = x + width - measure_.width(lines.at(0), label_style);
       add_line(layout_.texts, lines.at(0), label_style, text_x);
       layout_.fills.push_back(
-          {kCapColor, {text_x - 1.4 * swatch, top + 0.28 * line_, swatch, swatch}});
+          {cap_color, {text_x - 1.4 * swatch, top + 0.28 * line_, swatch, swatch}});
     }
     const double label_width = bar.cap_label.empty() ? width : width / 2 - line_;
     add_text(layout_.texts, bar.label, label_style, x, label_width, 1);
@@ -179,7 +178,7 @@ class FigureBuilder {
     const TextStyle style{0.9 * line_, false, figure_gray};
     const double mark_width = std::max(1.0, std::round(line_ / 14));
     const double mark_height = 0.3 * line_;
-    std::vector<Tick> ticks = scale_ticks(scale, static_cast<int>(bar.width / (7 * line_)));
+    std::vector<Tick> ticks = scale_ticks(scale, int(bar.width / (7 * line_)));
     // The ends first: round numbers between them are left out where they would run together.
     if (ticks.size() > 1) {
       std::rotate(ticks.begin() + 1, ticks.end() - 1, ticks.end());
@@ -212,7 +211,7 @@ class FigureBuilder {
   int factor_;
   int columns_ = 1;
   int rows_ = 0;
-  int cell_width_ = kMinPanelWidth;
+  int cell_width_ = min_panel_width;
   double line_ = 0;
   double margin_ = 0;
   double gap_ = 0;

@@ -35,9 +35,9 @@ std::size_t character_length(std::string_view text) {
 
 /// Without spaces and separators at the end, where a line was broken.
 std::string trimmed(std::string line) {
-  constexpr std::string_view kDot = " ·";
-  while (line.ends_with(' ') || line.ends_with(kDot)) {
-    line.resize(line.size() - (line.ends_with(' ') ? 1 : kDot.size()));
+  constexpr std::string_view dot = " ·";
+  while (line.ends_with(' ') || line.ends_with(dot)) {
+    line.resize(line.size() - (line.ends_with(' ') ? 1 : dot.size()));
   }
   return line;
 }
@@ -112,7 +112,7 @@ std::vector<std::string> TextMeasure::wrap(const std::string& text, const TextSt
       lines.push_back(rest);
       break;
     }
-    if (static_cast<int>(lines.size()) + 1 == max_lines) {
+    if (int(lines.size()) + 1 == max_lines) {
       lines.push_back(ellipsize(rest, style, max_width));
       break;
     }

@@ -79,18 +79,18 @@ void check_figure_size(const std::string& option, int width, int height, std::si
   // A panel that is too large alone need not be laid out.
   double wide = width;
   double high = height;
-  if (width <= kMaxCairoSide && height <= kMaxCairoSide) {
+  if (width <= max_cairo_side && height <= max_cairo_side) {
     for (const Figure& figure : extreme_figures(width, height, panels, panel_bars)) {
       const FigureLayout layout = lay_out(figure);
       wide = std::max(wide, layout.width);
       high = std::max(high, layout.height);
     }
   }
-  if (wide > kMaxCairoSide || high > kMaxCairoSide) {
+  if (wide > max_cairo_side || high > max_cairo_side) {
     throw std::invalid_argument(fmt::format(
         "{}: a figure of {} panels of {}x{} has up to {:.0f}x{:.0f} pixels; at most {}x{} would be "
         "right",
-        option, panels, width, height, wide, high, kMaxCairoSide, kMaxCairoSide));
+        option, panels, width, height, wide, high, max_cairo_side, max_cairo_side));
   }
 }
 

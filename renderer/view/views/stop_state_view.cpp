@@ -19,7 +19,7 @@ View draw_stop_state(const Snapshot& snapshot, std::size_t lane, const ViewSetti
   // In the order of the states.
   view.legend = {{{46, 88, 130}, std::string(pixel_state_label(PixelState::done))},
                  {{232, 119, 46}, std::move(refining)},
-                 {kCapColor, fmt::format("{} of {} spp", pixel_state_label(PixelState::at_maximum),
+                 {cap_color, fmt::format("{} of {} spp", pixel_state_label(PixelState::at_maximum),
                                          shown.settings.max_spp)}};
   view.image = DisplayImage(snapshot.width, snapshot.height);
   const std::vector<PixelState> states = pixel_states(shown);

@@ -8,7 +8,7 @@ namespace quartet {
 
 View blank_view(const Snapshot& snapshot, std::string note) {
   View view;
-  view.image = DisplayImage(snapshot.width, snapshot.height, kNotANumberColor);
+  view.image = DisplayImage(snapshot.width, snapshot.height, not_a_number_color);
   view.note = std::move(note);
   return view;
 }

@@ -116,7 +116,7 @@ void draw_color_key(LabFrame& frame, const PictureSlot& slot, const ScreenRect& 
     const ScreenRect cap = strip.cut_right(ui.px(12.0f));
     strip.cut_right(ui.px(2.0f));
     ImGui::GetWindowDrawList()->AddRectFilled({cap.x, cap.y}, {cap.right(), cap.bottom()},
-                                              screen_color(kCapColor));
+                                              screen_color(cap_color));
   }
   draw_gradient(strip, bar.scale.color_map);
   draw_bar_ticks(ui, strip, bar.scale, box.right());
