@@ -166,7 +166,7 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
                                   {"pilot_samples", record.pilot_samples},
                                   {"mean_spp", mean_spp(record, snapshot.pixels())},
                                   {"max_spp", record.max_spp},
-                                  {"refined_pixels", record.not_done},
+                                  {"pixels_not_done", record.not_done},
                                   {"rays", record.rays},
                                   {"seconds", record.seconds}});
     }
@@ -203,7 +203,7 @@ std::string csv_record(const Snapshot& snapshot) {
                         record.samples, mean_spp(record, snapshot.pixels()));
       csv += fmt::format("{},max_spp,{}\n", row, record.max_spp);
       csv += fmt::format("{},pilot_samples,{}\n", row, record.pilot_samples);
-      csv += fmt::format("{},refined_share,{:.6f}\n", row,
+      csv += fmt::format("{},share_not_done,{:.6f}\n", row,
                          double(record.not_done) / double(snapshot.pixels()));
     }
     if (snapshot.reference && !lane.history.empty()) {

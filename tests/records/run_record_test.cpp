@@ -96,20 +96,20 @@ TEST(CsvRecord, HasEveryNumberInItsColumn) {
                  "metric,value"),
                 contrast + "1,0.500000,31,6,3.000000,max_spp,2",
                 contrast + "1,0.500000,31,6,3.000000,pilot_samples,3",
-                contrast + "1,0.500000,31,6,3.000000,refined_share,0.500000",
+                contrast + "1,0.500000,31,6,3.000000,share_not_done,0.500000",
                 contrast + "2,1.250000,52,10,5.000000,max_spp,4",
                 contrast + "2,1.250000,52,10,5.000000,pilot_samples,5",
-                contrast + "2,1.250000,52,10,5.000000,refined_share,1.000000",
+                contrast + "2,1.250000,52,10,5.000000,share_not_done,1.000000",
                 kl + "3,2.500000,77,15,7.500000,max_spp,13",
                 kl + "3,2.500000,77,15,7.500000,pilot_samples,0",
-                kl + "3,2.500000,77,15,7.500000,refined_share,0.000000",
+                kl + "3,2.500000,77,15,7.500000,share_not_done,0.000000",
             }));
 
   snapshot.reference = numbered_truth();
   std::vector<std::string> errors;
   for (const auto& row : rows_of(csv_record(snapshot))) {
     if (row[1] == "kl" && row[11].find("spp") == std::string::npos && row[11] != "pilot_samples" &&
-        row[11] != "refined_share") {
+        row[11] != "share_not_done") {
       EXPECT_EQ(row[6], "3");
       errors.push_back(row[11] + " " + row[12]);
     }
@@ -153,9 +153,9 @@ TEST(JsonRecord, HasEveryNumberUnderItsName) {
       "multiplier": 0.75, "stochastic_rounding": true, "max_spp": 4321, "rejected": 11,
       "history": [
         {"pass": 1, "samples": 6, "pilot_samples": 3, "mean_spp": 3.0, "max_spp": 2,
-         "refined_pixels": 1, "rays": 31, "seconds": 0.5},
+         "pixels_not_done": 1, "rays": 31, "seconds": 0.5},
         {"pass": 2, "samples": 10, "pilot_samples": 5, "mean_spp": 5.0, "max_spp": 4,
-         "refined_pixels": 2, "rays": 52, "seconds": 1.25}]})"));
+         "pixels_not_done": 2, "rays": 52, "seconds": 1.25}]})"));
   const RadianceImage shown = radiance_image(snapshot, 1);
   for (const Metric& row : metrics()) {
     EXPECT_DOUBLE_EQ(record.at("lanes")[1].at("metrics").at(row.id).get<double>(),

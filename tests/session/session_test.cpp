@@ -110,7 +110,7 @@ void wait_until_idle(const Session& session) {
       wait_until([&] { return session.status().activity == SessionStatus::Activity::idle; }));
 }
 
-TEST(SessionThreads, APolicyChangeKeepsTheStoreAndACameraChangeEmptiesIt) {
+TEST(SessionThreads, AThresholdKeepsTheStoreAndACameraChangeEmptiesIt) {
   Session session;
   LabRequest request = four_lanes();
   ASSERT_TRUE(answer(session, request));

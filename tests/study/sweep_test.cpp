@@ -71,7 +71,7 @@ TEST(SweepFactors, AreGeometricWithTheDefaultAmongThem) {
   EXPECT_EQ(sweep_factors(plan).front(), 1.0) << "even outside of the range";
 }
 
-TEST(Sweep, HasEveryPolicyFactorAndSeedOnce) {
+TEST(Sweep, HasEveryLaneFactorAndSeedOnce) {
   const SweepResult& result = small_result();
   ASSERT_EQ(result.runs.size(), 2u * 3u * 3u);
   ASSERT_EQ(result.uniform.size(), 3u);

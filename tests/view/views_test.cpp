@@ -98,7 +98,7 @@ TEST(Views, ContrastCountsItsChannelWithTheLargestErrorForItsThreshold) {
   EXPECT_EQ(pixel_values(contrast, 1).error, (std::array{0.0f, 0.4f, 0.25f}));
 }
 
-TEST(Views, StopStatesAreThoseOfThePolicy) {
+TEST(Views, StopStatesAreThoseOfTheLaneSettings) {
   Snapshot snapshot = blank_snapshot(4, 1, two);
   LaneSnapshot& kl = snapshot.lanes[1];
   const float threshold = kl.settings.thresholds[0];
