@@ -108,10 +108,10 @@ std::vector<BiasRuns> measure_bias(
     std::span<const LaneSettings> lane_settings, std::uint32_t passes, std::uint32_t seeds,
     const LabOptions& options, const std::function<void(double)>& progress, std::stop_token stop) {
   std::vector<LaneSettings> lanes;
-  for (LaneSettings settings : lane_settings) {
+  for (LaneSettings lane : lane_settings) {
     for (const SampleMode mode : {SampleMode::reuse, SampleMode::unbiased}) {
-      settings.mode = mode;
-      lanes.push_back(settings);
+      lane.mode = mode;
+      lanes.push_back(lane);
     }
   }
   std::vector<BiasRuns> runs(lanes.size());

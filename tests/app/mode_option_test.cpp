@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "renderer/adaptive/estimators/estimator.h"
 #include "renderer/adaptive/sample_mode.h"
 #include "renderer/files/exr.h"
 #include "tests/app/program.h"

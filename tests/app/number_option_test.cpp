@@ -53,8 +53,10 @@ std::vector<NumericOption> numeric_options() {
       // CLI11's own conversions, which wrap around and take octal numbers, have these names.
       EXPECT_FALSE(std::regex_search(line, std::regex("--[a-z-]+ (INT|UINT|FLOAT)"))) << line;
       std::smatch found;
-      if (std::regex_search(
-              line, found, std::regex("(--[a-z-]+) (WHOLE|NUMBER):([-+.e0-9]+) to ([-+.e0-9]+)"))) {
+      // The first of its names is the one that messages have.
+      if (std::regex_search(line, found,
+                            std::regex("(--[a-z-]+)(?:,--[a-z-]+)* (WHOLE|NUMBER):([-+.e0-9]+) to "
+                                       "([-+.e0-9]+)"))) {
         options.push_back({command, found[1], found[2] == "WHOLE", found[3], found[4]});
       }
     }

@@ -255,8 +255,8 @@ TEST(Claims, AreMeasuredOnTheReportsScene) {
   std::vector<std::vector<std::uint32_t>> maps;
   for (std::size_t c = 0; c < report_criterion_count; ++c) {
     SCOPED_TRACE(estimator(report_criteria[c]).id);
-    const LaneSettings settings = default_settings(report_criteria[c]);
-    Lab alone(world.source(world.first_seed), 96, 54, std::span(&settings, 1));
+    const LaneSettings lane_settings = default_settings(report_criteria[c]);
+    Lab alone(world.source(world.first_seed), 96, 54, std::span(&lane_settings, 1));
     while (alone.pass() < 6) {
       alone.run_pass();
     }

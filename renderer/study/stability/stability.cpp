@@ -96,8 +96,8 @@ void Study::tune(TrialSetup& setup) {
   // Every lane of the study ends by itself.
   const CommonBudget budget{.passes = std::numeric_limits<std::uint32_t>::max(),
                             .spp = options_.spp};
-  const auto tuned = [&](const LaneSettings& settings) {
-    const std::optional<Calibration> found = calibrate(experiment, settings, budget, stop_);
+  const auto tuned = [&](const LaneSettings& lane) {
+    const std::optional<Calibration> found = calibrate(experiment, lane, budget, stop_);
     if (!found) {
       throw Stopped();
     }
