@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "renderer/base/hash_mix.h"
 #include "renderer/base/parallel.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/scene/synthetic.h"
@@ -275,11 +276,8 @@ SampleSource sample_source(std::shared_ptr<const TraceScene> scene,
 
 SampleSource pilot_source(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings) {
   RenderSettings other = settings;
-  // The finalizer of SplitMix64: a bijection, so that no two seeds share their pilot's.
-  std::uint64_t x = settings.seed + 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  other.seed = x ^ (x >> 31);
+  // A bijection, so that no two seeds share their pilot's.
+  other.seed = hash_mix(settings.seed + golden_step);
   return sample_source(std::move(scene), other);
 }
 

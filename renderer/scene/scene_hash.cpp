@@ -6,22 +6,17 @@
 #include <cstdint>
 #include <string_view>
 
+#include "renderer/base/hash_mix.h"
 #include "renderer/scene/synthetic.h"
 
 namespace quartet {
 
 namespace {
 
-/// 64 bits a word through the finaliser of SplitMix64 (Steele, Lea, Flood 2014). It need not
-/// withstand an adversary, only keep two scenes of one user apart.
+/// Only to keep two scenes of one user apart.
 class Hasher {
  public:
-  void add(std::uint64_t word) {
-    std::uint64_t x = (state_ ^ word) + 0x9e3779b97f4a7c15u;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    state_ = x ^ (x >> 31);
-  }
+  void add(std::uint64_t word) { state_ = hash_mix((state_ ^ word) + golden_step); }
   void add(float value) { add(std::uint64_t(std::bit_cast<std::uint32_t>(value))); }
   void add(glm::vec2 v) { add_all(v.x, v.y); }
   void add(glm::vec3 v) { add_all(v.x, v.y, v.z); }

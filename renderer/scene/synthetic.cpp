@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/base/hash_mix.h"
 #include "renderer/base/table.h"
 
 namespace quartet {
@@ -68,14 +69,6 @@ constexpr std::array table{
     Synthetic{"negative", "uniform in 0 to 1; 1 in 100 is negative", 0.5, 1.0 / 12.0, negative},
 };
 
-/// A bijection of 64 bits with every output bit depending on every input bit (Stafford's variant
-/// 13 of the MurmurHash3 finaliser, as in SplitMix64: Steele, Lea and Flood 2014).
-constexpr std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 constexpr double to_unit(std::uint32_t bits) {
   return (double(bits) + 0.5) * 0x1p-32;
 }
@@ -93,9 +86,9 @@ const Synthetic& find_synthetic(std::string_view id) {
 void draw_synthetic(const Synthetic& row, std::uint64_t seed, int x, int y, std::uint32_t first,
                     std::span<glm::vec3> radiance) {
   const std::uint64_t pixel = std::uint64_t(std::uint32_t(y)) << 32 | std::uint32_t(x);
-  const std::uint64_t key = mix(mix(seed + 0x9e3779b97f4a7c15u) ^ pixel);
+  const std::uint64_t key = hash_mix(hash_mix(seed + golden_step) ^ pixel);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
-    const std::uint64_t bits = mix(key + (first + i) * 0x9e3779b97f4a7c15u);
+    const std::uint64_t bits = hash_mix(key + (first + i) * golden_step);
     radiance[i] =
         glm::vec3(row.draw(to_unit(std::uint32_t(bits >> 32)), to_unit(std::uint32_t(bits))));
   }
