@@ -11,10 +11,9 @@
 namespace quartet {
 namespace {
 
-/// As luminance() of image.h, in double: the spread of nearly equal samples is smaller than what
-/// single precision rounds.
+/// In double: the spread of nearly equal samples is smaller than what single precision rounds.
 double exact_luminance(const glm::vec3& c) {
-  return 0.2126 * double(c.r) + 0.7152 * double(c.g) + 0.0722 * double(c.b);
+  return luminance(double(c.r), double(c.g), double(c.b));
 }
 
 /// Zeros, or no memory.

@@ -53,8 +53,12 @@ using ScalarImage = Image<float>;
 using DisplayImage = Image<Rgba8>;
 
 /// Luminance of linear RGB with Rec. 709 primaries.
+template <class T>
+constexpr T luminance(T r, T g, T b) {
+  return T(0.2126) * r + T(0.7152) * g + T(0.0722) * b;
+}
 inline float luminance(glm::vec3 c) {
-  return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+  return luminance(c.r, c.g, c.b);
 }
 
 }  // namespace quartet

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "renderer/adaptive/estimators/divergence.h"
+#include "renderer/base/image.h"
 
 namespace quartet {
 
@@ -18,9 +19,7 @@ struct PixelWindow {
   std::span<const T> r, g, b;
 
   std::size_t size() const { return r.size(); }
-  T luminance(std::size_t i) const {
-    return T(0.2126) * r[i] + T(0.7152) * g[i] + T(0.0722) * b[i];
-  }
+  T luminance(std::size_t i) const { return quartet::luminance(r[i], g[i], b[i]); }
   T mean_luminance() const {
     T sum = 0;
     for (std::size_t i = 0; i < size(); ++i) {

@@ -97,7 +97,7 @@ struct LuminanceRow {
     float* out = luminance.data();
 #pragma omp simd
     for (std::size_t x = 0; x < width; ++x) {
-      out[x] = std::min(brightest, 0.2126f * r[x] + 0.7152f * g[x] + 0.0722f * b[x]);
+      out[x] = std::min(brightest, quartet::luminance(r[x], g[x], b[x]));
     }
     if (with_root) {
       root.resize(width);
