@@ -97,9 +97,17 @@ double median(std::vector<double> values) {
   if (std::ranges::any_of(values, [](double value) { return std::isnan(value); })) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return values.size() % 2 == 1 ? *middle
+                                : 0.5 * (*std::max_element(values.begin(), middle) + *middle);
+}
+
+float largest_but(std::vector<float> values, std::size_t left_out) {
+  assert(left_out < values.size());
+  const auto place = values.end() - 1 - std::ptrdiff_t(left_out);
+  std::ranges::nth_element(values, place);
+  return *place;
 }
 
 Interval mean_interval(std::span<const double> values, double p) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,10 @@ double mean_of(std::span<const double> values);
 
 /// The middle of the values, the mean of two where there is no single one; NaN if one of them is.
 double median(std::vector<double> values);
+
+/// The largest of at least `left_out` + 1 values, once so many larger ones are left out; none is
+/// NaN.
+float largest_but(std::vector<float> values, std::size_t left_out);
 
 /// Of the mean of independent values, two-sided, at confidence 1 − p, by Student's t. Of a single
 /// value nothing is known: its interval has no ends.

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "renderer/adaptive/lane.h"
+#include "renderer/base/interval.h"
 
 namespace quartet {
 namespace {
@@ -92,10 +94,10 @@ double FalseStops::share() const {
 FalseStops false_stops(std::span<const PixelState> states,
                        std::span<const float> true_squared_error) {
   assert(states.size() == true_squared_error.size());
-  std::vector<float> others;
+  std::vector<double> others;
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i] != PixelState::done) {
-      others.push_back(true_squared_error[i]);
+      others.push_back(double(true_squared_error[i]));
     }
   }
   FalseStops stops;
@@ -104,14 +106,9 @@ FalseStops false_stops(std::span<const PixelState> states,
   if (others.empty()) {
     return stops;
   }
-  const auto middle = others.begin() + std::ptrdiff_t(others.size() / 2);
-  std::ranges::nth_element(others, middle);
-  double median = double(*middle);
-  if (others.size() % 2 == 0) {
-    median = 0.5 * (median + double(*std::max_element(others.begin(), middle)));
-  }
+  const double typical = median(std::move(others));
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const bool worse = double(true_squared_error[i]) > median;
+    const bool worse = double(true_squared_error[i]) > typical;
     stops.wrong += states[i] == PixelState::done && worse ? 1 : 0;
   }
   return stops;

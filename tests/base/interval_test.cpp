@@ -51,6 +51,20 @@ TEST(Interval, OfAMeanByHand) {
   EXPECT_DOUBLE_EQ(mean_of(values), 2.5);
 }
 
+TEST(Interval, MedianByHand) {
+  EXPECT_EQ(median({7.0}), 7.0);
+  EXPECT_EQ(median({9.0, 1.0, 4.0}), 4.0);
+  EXPECT_EQ(median({8.0, 1.0, 2.0, 9.0}), 5.0);
+  EXPECT_TRUE(std::isnan(median({1.0, std::nan(""), 2.0})));
+}
+
+TEST(Interval, LargestButByHand) {
+  const std::vector<float> values{3.0f, 9.0f, 1.0f, 9.0f, 4.0f};
+  EXPECT_EQ(largest_but(values, 0), 9.0f);
+  EXPECT_EQ(largest_but(values, 2), 4.0f);
+  EXPECT_EQ(largest_but(values, 4), 1.0f);
+}
+
 // 20 000 intervals at 90 % miss the truth 2 000 times, standard deviation 42; five of them: false
 // alarms under 1e-6.
 TEST(Interval, MissesTheTruthAsOftenAsItSays) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/base/interval.h"
 #include "renderer/base/number_text.h"
 
 namespace quartet {
@@ -14,10 +15,9 @@ namespace {
 
 /// The value that a share of all numbers is at or below.
 float quantile(const ScalarImage& image, double share) {
-  std::vector<float> values(image.pixels().begin(), image.pixels().end());
-  const auto index = std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + index, values.end());
-  return values[std::size_t(index)];
+  const std::size_t last = image.size() - 1;
+  const auto index = std::size_t(share * double(last) + 0.5);
+  return largest_but({image.pixels().begin(), image.pixels().end()}, last - index);
 }
 
 /// Where errors span decades, a linear scale would show a few fireflies in the dark.

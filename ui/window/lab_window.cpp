@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/base/interval.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/dock.h"
 #include "ui/window/lane_column.h"
@@ -128,10 +129,10 @@ void LabWindow::normalize_exposure() {
   if (largest.empty()) {
     return;
   }
-  const auto place = largest.begin() + std::ptrdiff_t(largest.size() - 1 - largest.size() / 100);
-  std::ranges::nth_element(largest, place);
-  if (*place > 0.0f) {
-    state_.view.exposure = std::clamp(-std::log2(*place), -largest_exposure, largest_exposure);
+  const std::size_t clipped = largest.size() / 100;
+  const float white = largest_but(std::move(largest), clipped);
+  if (white > 0.0f) {
+    state_.view.exposure = std::clamp(-std::log2(white), -largest_exposure, largest_exposure);
   }
 }
 

@@ -1,6 +1,7 @@
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "renderer/base/interval.h"
 #include "renderer/view/pixel_values.h"
 #include "renderer/view/views/view_parts.h"
 #include "renderer/view/views/view_rows.h"
@@ -21,9 +22,8 @@ double symmetric_end(std::span<const float> numbers) {
   if (sizes.empty()) {
     return 1.0;
   }
-  const auto place = sizes.begin() + std::ptrdiff_t(sizes.size() - 1 - sizes.size() / 20);
-  std::ranges::nth_element(sizes, place);
-  const double size = double(*place);
+  const std::size_t fireflies = sizes.size() / 20;
+  const double size = double(largest_but(std::move(sizes), fireflies));
   const double power = std::pow(10.0, std::floor(std::log10(size)));
   const double digit = size / power;
   return power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
