@@ -10,6 +10,7 @@
 #include "renderer/measure/metrics.h"
 #include "renderer/view/quality_chart.h"
 #include "ui/widgets/chart_painter.h"
+#include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/menus/equalise_menu.h"
 #include "ui/window/menus/metric_table.h"
@@ -54,32 +55,15 @@ void edit_view(LabFrame& frame) {
 void edit_metric(LabFrame& frame) {
   MetricId& chosen = frame.state.request.lanes.metric;
   combo(frame.ui, "dock.metric", std::string(metric(chosen).label), frame.ui.px(130.0f), [&] {
-    bool changed = false;
-    for (const Metric& row : metrics()) {
-      if (combo_row(frame.ui, fmt::format("dock.metric.{}", row.id), std::string(row.label),
-                    row.key == chosen, std::string(row.definition))) {
-        chosen = row.key;
-        changed = true;
-      }
-    }
-    return changed;
+    return table_rows(frame.ui, "dock.metric", metrics(), chosen, &Metric::definition);
   });
   tooltip(frame.ui, std::string(metric(chosen).definition));
 }
 
 void edit_effort(LabFrame& frame) {
   Effort& chosen = frame.state.dock.effort;
-  combo(frame.ui, "dock.effort", std::string(effort_row(chosen).label), frame.ui.px(190.0f), [&] {
-    bool changed = false;
-    for (const EffortRow& row : efforts()) {
-      if (combo_row(frame.ui, fmt::format("dock.effort.{}", row.id), std::string(row.label),
-                    row.key == chosen)) {
-        chosen = row.key;
-        changed = true;
-      }
-    }
-    return changed;
-  });
+  combo(frame.ui, "dock.effort", std::string(effort_row(chosen).label), frame.ui.px(190.0f),
+        [&] { return table_rows(frame.ui, "dock.effort", efforts(), chosen); });
 }
 
 void draw_bar(LabFrame& frame, const ScreenRect& bar, bool open) {

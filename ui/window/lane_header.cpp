@@ -9,6 +9,7 @@
 #include "renderer/adaptive/effort.h"
 #include "renderer/base/number_text.h"
 #include "ui/widgets/imgui_compat.h"
+#include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/policy_editor.h"
 
@@ -62,15 +63,7 @@ bool edit_estimator(Ui& ui, std::size_t lane, LaneSettings& settings, bool has_r
 bool edit_sample_mode(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
   const std::string name = lane_name(lane, "mode");
   const bool chosen = combo(ui, name, std::string(sample_mode(settings.mode).label), width, [&] {
-    bool changed = false;
-    for (const SampleModeRow& row : sample_modes()) {
-      if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                    settings.mode == row.key, std::string(row.source))) {
-        settings.mode = row.key;
-        changed = true;
-      }
-    }
-    return changed;
+    return table_rows(ui, name, sample_modes(), settings.mode, &SampleModeRow::source);
   });
   tooltip(ui, "What becomes of the samples that decide where more are taken: " +
                   std::string(sample_mode(settings.mode).source) + ".");

@@ -6,6 +6,7 @@
 
 #include "renderer/adaptive/policy_parameter.h"
 #include "ui/widgets/imgui_compat.h"
+#include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/lab_frame.h"
 
@@ -75,14 +76,7 @@ bool edit_parameters(Ui& ui, const std::string& name, LaneSettings& settings) {
 bool edit_policy(Ui& ui, std::size_t lane, LaneSettings& settings, float width) {
   const std::string name = fmt::format("lane{}.policy", lane);
   const bool chosen = combo(ui, name, std::string(policy(settings.policy.kind).label), width, [&] {
-    bool changed = false;
-    for (const PolicyRow& row : policies()) {
-      if (combo_row(ui, fmt::format("{}.{}", name, row.id), std::string(row.label),
-                    settings.policy.kind == row.key, std::string(row.source))) {
-        settings.policy.kind = row.key;
-        changed = true;
-      }
-    }
+    bool changed = table_rows(ui, name, policies(), settings.policy.kind, &PolicyRow::source);
     ImGui::Separator();
     changed |= edit_parameters(ui, name, settings);
     int cap = int(std::min<std::uint32_t>(settings.max_spp, 1u << 30));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ui/widgets/imgui_compat.h"
+#include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/lab_layout.h"
 #include "ui/window/menus/scene_menu.h"
@@ -30,15 +31,8 @@ struct Item {
 void draw_integrator(LabFrame& frame, float width) {
   RenderSettings& settings = frame.state.request.store.settings;
   combo(frame.ui, "integrator", std::string(integrator(settings.integrator).id), width, [&] {
-    bool changed = false;
-    for (const Integrator& row : integrators()) {
-      if (combo_row(frame.ui, fmt::format("integrator.{}", row.id), std::string(row.label),
-                    row.key == settings.integrator, std::string(row.description))) {
-        settings.integrator = row.key;
-        changed = true;
-      }
-    }
-    return changed;
+    return table_rows(frame.ui, "integrator", integrators(), settings.integrator,
+                      &Integrator::description);
   });
   tooltip(frame.ui, std::string(integrator(settings.integrator).description));
 }

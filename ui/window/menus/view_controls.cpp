@@ -6,6 +6,7 @@
 #include <array>
 
 #include "renderer/view/tone_map.h"
+#include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/lab_layout.h"
 
@@ -30,15 +31,7 @@ void draw_exposure(LabFrame& frame, float width) {
 void draw_tone_map(LabFrame& frame, float width) {
   ToneMap& tone_map = frame.state.view.tone_map;
   combo(frame.ui, "tone_map", std::string(tone_map_row(tone_map).label), width, [&] {
-    bool changed = false;
-    for (const ToneMapRow& row : tone_maps()) {
-      if (combo_row(frame.ui, fmt::format("tone_map.{}", row.id), std::string(row.label),
-                    row.key == tone_map, std::string(row.source))) {
-        tone_map = row.key;
-        changed = true;
-      }
-    }
-    return changed;
+    return table_rows(frame.ui, "tone_map", tone_maps(), tone_map, &ToneMapRow::source);
   });
   tooltip(frame.ui, "Tone map  (T)");
 }
@@ -89,14 +82,7 @@ bool edit_scale(LabFrame& frame) {
 void draw_layout(LabFrame& frame, float width) {
   LabLayout& layout = frame.state.layout;
   combo(frame.ui, "layout", std::string(layout_row(layout).label), width, [&] {
-    bool changed = false;
-    for (const LayoutRow& row : layouts()) {
-      if (combo_row(frame.ui, fmt::format("layout.{}", row.id), std::string(row.label),
-                    layout == row.key)) {
-        layout = row.key;
-        changed = true;
-      }
-    }
+    const bool changed = table_rows(frame.ui, "layout", layouts(), layout);
     ImGui::Separator();
     return edit_scale(frame) || changed;
   });
