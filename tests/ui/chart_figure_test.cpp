@@ -60,6 +60,8 @@ std::vector<ChartFigure> figures() {
   all[1].charts[1].lines.push_back({std::string(400, 'M'), red, {}});
   all[1].title = std::string(500, 'M') + " \xff broken";
   all[1].footer = std::string(3000, 'x');
+  all.push_back(two_charts());
+  all.back().charts.push_back(pareto("error against rays"));
   return all;
 }
 
@@ -99,6 +101,22 @@ TEST(ChartLayout, NoTextOrLegendCoversDataOrLeavesThePage) {
       }
     }
   }
+}
+
+TEST(ChartLayout, TheLegendStandsInTheLastRowWhereThereIsRoom) {
+  ChartFigure figure = two_charts();
+  figure.charts.push_back(figure.charts.front());
+  const ChartLayout layout = lay_out(figure);
+  const Rect& last = layout.charts.back().area;
+  ASSERT_FALSE(layout.legend.empty());
+  for (const LegendEntry& entry : layout.legend) {
+    EXPECT_GT(entry.box.x, last.right());
+    EXPECT_GE(entry.box.y, last.y);
+    EXPECT_LE(entry.box.bottom(), last.bottom());
+  }
+  figure.charts.pop_back();
+  const ChartLayout full = lay_out(figure);
+  EXPECT_GT(full.legend.front().box.y, full.charts.back().area.bottom());
 }
 
 TEST(ChartLayout, LabelsOfBothAxesAndALegendEntryALabelOnce) {

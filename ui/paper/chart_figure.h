@@ -8,8 +8,8 @@
 
 namespace quartet {
 
-/// Charts for a report, on paper: in rows from the top left, all of one size, with one legend below
-/// them for all. Text is UTF-8.
+/// Charts for a report, on paper: in rows from the top left, all of one size, with one legend for
+/// all: where the last row has room, else below. Text is UTF-8.
 struct ChartFigure {
   std::string title;
   std::vector<std::string> lines;  ///< below the title

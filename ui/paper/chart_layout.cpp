@@ -55,6 +55,7 @@ class ChartBuilder {
  private:
   static constexpr double margin = 1.6 * line_size;
   static constexpr double gap = 1.6 * line_size;
+  static constexpr double legend_line = 1.5 * line_size;
 
   static TextStyle line_style() { return {line_size, false, chart_gray}; }
   static TextStyle tick_style() { return {0.9 * line_size, false, chart_gray}; }
@@ -93,6 +94,7 @@ class ChartBuilder {
       add_chart(figure_.charts[i],
                 {std::round(x + tick_width_), area_top, area_width, area_height});
     }
+    last_area_top_ = area_top;
     y_ = area_top + area_height + 0.8 * line_size + 2 * chart_line_height * line_size;
   }
 
@@ -129,30 +131,52 @@ class ChartBuilder {
     layout_.charts.push_back(std::move(placed));
   }
 
-  /// In columns as wide as the widest entry, in rows from the top left.
+  /// Where the last row of charts leaves room for it, else below. In columns as wide as the widest
+  /// entry, in rows from the top left.
   void add_legend() {
     const auto entries = legend_of(figure_);
     if (entries.empty()) {
       return;
     }
-    y_ += 0.8 * line_size;
     double widest = 0.0;
     for (const auto& [label, sample] : entries) {
       widest = std::max(widest, measure_.width(clean_text(label), line_style()));
     }
     const double lead = sample_width + 0.6 * line_size;
-    const double column = std::min(lead + widest + 1.6 * line_size, page_width_);
-    const int columns = std::max(1, int(page_width_ / column));
-    const double top = y_;
+    const double column = lead + widest + 1.6 * line_size;
+    const int taken = int(figure_.charts.size()) % columns_;
+    const double left = margin + taken * (cell_width_ + gap);
+    const Rect beside{left, last_area_top_, margin + page_width_ - left, area_height};
+    if (taken > 0 && column <= beside.width &&
+        legend_height(int(entries.size()), column, beside.width) <= beside.height) {
+      put_legend(entries, beside, column);
+      return;
+    }
+    y_ += 0.8 * line_size;
+    const Rect below{margin, y_, page_width_, 0.0};
+    put_legend(entries, below, column);
+    y_ += legend_height(int(entries.size()), column, below.width);
+  }
+
+  static int legend_columns(double column, double width) {
+    return std::max(1, int(width / column));
+  }
+  static double legend_height(int entries, double column, double width) {
+    const int columns = legend_columns(column, width);
+    return (entries + columns - 1) / columns * legend_line;
+  }
+
+  void put_legend(const LegendEntries& entries, const Rect& box, double column) {
+    const int columns = legend_columns(column, box.width);
+    const double lead = sample_width + 0.6 * line_size;
+    const double room = std::min(column, box.width) - lead;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      const int row = int(i) / columns;
-      const double x = margin + double(int(i) % columns) * column;
-      const double y = top + double(row) * 1.5 * line_size;
+      const double x = box.x + double(int(i) % columns) * column;
+      const double y = box.y + double(int(i) / columns) * legend_line;
       layout_.legend.push_back(
           {entries[i].second, {x, y, sample_width, chart_line_height * line_size}});
-      const auto text = measure_.wrap(entries[i].first, line_style(), column - lead, 1);
+      const auto text = measure_.wrap(entries[i].first, line_style(), room, 1);
       put(text.at(0), line_style(), x + lead, y);
-      y_ = y + 1.5 * line_size;
     }
   }
 
@@ -163,13 +187,14 @@ class ChartBuilder {
   double tick_width_ = 0;
   double cell_width_ = 0;
   double page_width_ = 0;
+  double last_area_top_ = 0;
   double y_ = 0;  // where the next thing goes
 };
 
 }  // namespace
 
-std::vector<std::pair<std::string, LegendSample>> legend_of(const ChartFigure& figure) {
-  std::vector<std::pair<std::string, LegendSample>> entries;
+LegendEntries legend_of(const ChartFigure& figure) {
+  LegendEntries entries;
   const auto add = [&](const auto& thing) {
     const auto known = [&](const auto& entry) { return entry.first == thing.label; };
     if (!thing.label.empty() && std::ranges::none_of(entries, known)) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -41,7 +43,10 @@ struct ChartLayout {
 ChartLayout lay_out(const ChartFigure& figure);
 ChartLayout lay_out(const ChartFigure&& gone) = delete;
 
+/// Labels, and what stands before them.
+using LegendEntries = std::vector<std::pair<std::string, LegendSample>>;
+
 /// The legend's entries of all charts, each label once.
-std::vector<std::pair<std::string, LegendSample>> legend_of(const ChartFigure& figure);
+LegendEntries legend_of(const ChartFigure& figure);
 
 }  // namespace quartet
