@@ -7,7 +7,7 @@
 #include <stop_token>
 
 #include "renderer/scene/scene.h"
-#include "renderer/trace/wide.h"
+#include "renderer/base/wide.h"
 
 struct RTCSceneTy;
 

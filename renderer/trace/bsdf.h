@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/scene/scene.h"
-#include "renderer/trace/frame.h"
+#include "renderer/base/warp.h"
 
 namespace quartet {
 

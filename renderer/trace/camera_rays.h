@@ -2,7 +2,7 @@
 
 #include "renderer/scene/scene.h"
 #include "renderer/trace/accel.h"
-#include "renderer/trace/frame.h"
+#include "renderer/base/warp.h"
 #include "renderer/trace/sampler.h"
 
 namespace quartet {

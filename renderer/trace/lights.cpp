@@ -8,6 +8,7 @@
 #include "renderer/base/image.h"
 #include "renderer/scene/limits.h"
 #include "renderer/trace/color_at.h"
+#include "renderer/base/warp.h"
 #include "renderer/trace/frame.h"
 
 namespace quartet {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "renderer/trace/frame.h"
 #include "renderer/trace/sampler.h"
 #include "renderer/trace/trace_scene.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/trace/sampler.h"
-#include "renderer/trace/wide.h"
+#include "renderer/base/wide.h"
 
 namespace quartet {
 

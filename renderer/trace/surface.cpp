@@ -1,7 +1,7 @@
 #include "renderer/trace/surface.h"
 
 #include "renderer/base/cancel.h"
-#include "renderer/trace/frame.h"
+#include "renderer/base/warp.h"
 
 namespace quartet {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "renderer/trace/frame.h"
+#include "renderer/base/warp.h"
 #include "tests/trace/test_scenes.h"
 
 namespace quartet {
