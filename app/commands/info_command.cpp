@@ -7,12 +7,10 @@
 #include "app/commands/commands.h"
 #include "app/options/run_options.h"
 #include "app/records/json_text.h"
-#include "app/records/scene_text.h"
 #include "app/records/vector_json.h"
+#include "renderer/base/number_text.h"
 #include "renderer/base/printable.h"
-#include "renderer/scene/mesh/mesh.h"
 #include "renderer/scene/synthetic.h"
-#include "renderer/trace/color_at.h"
 
 namespace quartet {
 namespace {
@@ -25,56 +23,20 @@ struct InfoOptions {
   bool as_json = false;
 };
 
-std::string_view kind_of(const Shape& shape) {
-  return std::visit(
-      [](const auto& geometry) -> std::string_view {
-        using Geometry = std::decay_t<decltype(geometry)>;
-        return std::is_same_v<Geometry, Mesh>     ? "mesh"
-               : std::is_same_v<Geometry, Sphere> ? "sphere"
-                                                  : "disk";
-      },
-      shape.geometry);
-}
-
 std::size_t triangles_of(const Shape& shape) {
   const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
   return mesh ? mesh->triangles.size() : 0;
-}
-
-std::string numbers(glm::vec3 v) {
-  return v.x == v.y && v.y == v.z ? fmt::format("{:.4g}", v.x)
-                                  : fmt::format("{:.4g} {:.4g} {:.4g}", v.x, v.y, v.z);
-}
-
-std::string color_text(const Scene& scene, const Color& color) {
-  return color.texture == Color::no_texture
-             ? numbers(color.value)
-             : fmt::format("a checkerboard, {} on average", numbers(average_color(scene, color)));
 }
 
 std::string name_or(const std::string& id, std::string_view fallback) {
   return id.empty() ? fmt::format("({})", fallback) : id;
 }
 
-std::string material_text(const Scene& scene, const Material& material) {
-  std::string text = fmt::format("{}, reflectance {}", material_name(material.kind),
-                                 color_text(scene, material.reflectance));
-  if (material.kind == MaterialKind::dielectric) {
-    text += fmt::format(", index {:.4g}", material.ior);
-  } else if (material.kind != MaterialKind::diffuse) {
-    text += fmt::format(", eta {}, k {}", numbers(material.eta), numbers(material.k));
-  }
-  if (material.kind == MaterialKind::rough_conductor) {
-    text += fmt::format(", GGX alpha {:.4g}", material.alpha);
-  }
-  return text + (material.two_sided ? ", two-sided" : "");
-}
-
 void print_camera(const Scene& scene) {
   const Camera& camera = scene.camera;
   fmt::print("camera      {} at {}, looking along {}, field of view {:.4g}°\n",
-             camera.aperture_radius > 0.0f ? "thin lens" : "pinhole", numbers(camera.origin),
-             numbers(camera.forward), camera.fov);
+             camera.aperture_radius > 0.0f ? "thin lens" : "pinhole", vector_text(camera.origin),
+             vector_text(camera.forward), camera.fov);
   if (camera.aperture_radius > 0.0f) {
     fmt::print("            aperture radius {:.4g}, in focus at {:.4g}\n", camera.aperture_radius,
                camera.focus_distance);
@@ -82,19 +44,22 @@ void print_camera(const Scene& scene) {
 }
 
 void print_lights(const Scene& scene) {
+  const auto print_light = []<class Kind>(const Kind& light) {
+    fmt::print("  {:<18} {}\n", fmt::format("({})", Kind::name), light.text());
+  };
   fmt::print("lights\n");
   for (const Shape& shape : scene.shapes) {
     if (shape.emits) {
       fmt::print("  {:<18} {}, area {:.4g}, radiance {}\n", name_or(shape.id, "no id"),
-                 kind_of(shape), surface_area(shape), color_text(scene, shape.radiance));
+                 shape_name(shape), surface_area(shape),
+                 color_text(scene.textures, shape.radiance));
     }
   }
-  for (const PointLight& light : scene.points) {
-    fmt::print("  {:<18} at {}, intensity {}\n", "(point)", numbers(light.position),
-               numbers(light.intensity));
+  for (const DeltaLight& light : scene.delta_lights) {
+    std::visit(print_light, light);
   }
-  if (scene.environment != glm::vec3(0.0f)) {
-    fmt::print("  {:<18} from all around, radiance {}\n", "(constant)", numbers(scene.environment));
+  if (shines(scene.environment)) {
+    std::visit(print_light, scene.environment);
   }
 }
 
@@ -115,17 +80,24 @@ void print_text(const Scene& scene) {
   print_camera(scene);
   fmt::print("shapes\n");
   for (const Shape& shape : scene.shapes) {
-    const std::size_t triangles = triangles_of(shape);
     const Material& material = scene.materials[std::size_t(shape.material)];
-    fmt::print("  {:<18} {}{}, {}\n", name_or(shape.id, fmt::format("line {}", shape.line)),
-               kind_of(shape), triangles > 0 ? fmt::format(" of {} triangles", triangles) : "",
-               material_text(scene, material));
+    fmt::print("  {:<18} {}, {}\n", name_or(shape.id, fmt::format("line {}", shape.line)),
+               shape_text(shape), material_text(scene.textures, material));
   }
   print_lights(scene);
   fmt::print("approximated or left out{}\n", scene.warnings.empty() ? ": nothing" : "");
   for (const std::string& warning : scene.warnings) {
     fmt::print("  {}\n", warning);
   }
+}
+
+void add_json(const PointLight& light, ordered_json& json) {
+  json["points"].push_back(
+      {{"position", vector_json(light.position)}, {"intensity", vector_json(light.intensity)}});
+}
+
+void add_json(const ConstantEnvironment& environment, ordered_json& json) {
+  json["environment"] = vector_json(environment.radiance);
 }
 
 ordered_json json_of(const Scene& scene) {
@@ -148,22 +120,21 @@ ordered_json json_of(const Scene& scene) {
   for (const Shape& shape : scene.shapes) {
     const Material& material = scene.materials[std::size_t(shape.material)];
     ordered_json entry = {{"id", shape.id},
-                          {"kind", kind_of(shape)},
+                          {"kind", shape_name(shape)},
                           {"triangles", triangles_of(shape)},
                           {"area", surface_area(shape)},
-                          {"material", material_name(material.kind)},
+                          {"material", material_name(material)},
                           {"two_sided", material.two_sided}};
     if (shape.emits) {
-      entry["radiance"] = vector_json(average_color(scene, shape.radiance));
+      entry["radiance"] = vector_json(average_color(scene.textures, shape.radiance));
     }
     json["shapes"].push_back(std::move(entry));
   }
   json["points"] = ordered_json::array();
-  for (const PointLight& light : scene.points) {
-    json["points"].push_back(
-        {{"position", vector_json(light.position)}, {"intensity", vector_json(light.intensity)}});
+  for (const DeltaLight& light : scene.delta_lights) {
+    std::visit([&](const auto& kind) { add_json(kind, json); }, light);
   }
-  json["environment"] = vector_json(scene.environment);
+  std::visit([&](const auto& kind) { add_json(kind, json); }, scene.environment);
   json["warnings"] = scene.warnings;
   return json;
 }

@@ -10,7 +10,6 @@
 #include "app/options/number_option.h"
 #include "app/options/run_options.h"
 #include "app/options/usage_error.h"
-#include "app/records/scene_text.h"
 #include "renderer/scene/synthetic.h"
 #include "renderer/trace/path_log.h"
 #include "renderer/trace/store/running_mean.h"
@@ -45,7 +44,7 @@ std::string surface_text(const Scene& scene, const Surface& surface) {
   if (std::holds_alternative<Mesh>(shape.geometry)) {
     text += fmt::format(", triangle {}", surface.primitive);
   }
-  text += fmt::format(", {}", material_name(material.kind));
+  text += fmt::format(", {}", material_name(material));
   return material.id.empty() ? text : fmt::format("{} '{}'", text, material.id);
 }
 

@@ -32,4 +32,9 @@ std::string short_number(float value) {
                          : fmt::format("{:.0f}", value);
 }
 
+std::string vector_text(glm::vec3 v) {
+  return v.x == v.y && v.y == v.z ? fmt::format("{:.4g}", v.x)
+                                  : fmt::format("{:.4g} {:.4g} {:.4g}", v.x, v.y, v.z);
+}
+
 }  // namespace quartet

@@ -32,6 +32,14 @@ Vec2<F> square_to_disk(F u, F v) {
   return {wide ? cosine : sine, wide ? sine : cosine};
 }
 
+/// The unit square onto barycentric coordinates. Folding the square keeps the stratification better
+/// than the square root: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+template <class F>
+Vec2<F> square_to_triangle(F u, F v) {
+  const auto upper = v > u;
+  return {upper ? 0.5f * u : u - 0.5f * v, upper ? v - 0.5f * u : 0.5f * v};
+}
+
 /// The unit square onto the hemisphere around +z with density cos θ / π.
 template <class F>
 Vec3<F> square_to_cosine_hemisphere(F u, F v) {

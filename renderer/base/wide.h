@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <type_traits>
 
 namespace quartet {
 
@@ -147,27 +148,51 @@ using Vec2 = typename VectorsOf<F>::Vec2;
 template <class F>
 using Vec3 = typename VectorsOf<F>::Vec3;
 
-/// Eight rows of eight floats into eight columns: element `lane` of column c is rows[lane][c].
-inline void transpose(const float* const rows[simd_lanes], Float8 columns[simd_lanes]) {
-  __m256 a[simd_lanes];
-  __m256 b[simd_lanes];
-  for (int i = 0; i < simd_lanes; ++i) {
-    a[i] = _mm256_loadu_ps(rows[i]);
+/// Eight structs into eight values a member, which are to be taken in the order of the members. A
+/// struct holds sixteen floats, alone or as vectors, and nothing else.
+class Columns {
+ public:
+  template <class Row>
+  [[gnu::always_inline]] explicit Columns(const Row* const (&rows)[simd_lanes]) {
+    static_assert(sizeof(Row) == sizeof(columns_) / simd_lanes);
+    static_assert(std::is_standard_layout_v<Row> && std::is_trivially_copyable_v<Row>);
+    transpose(rows, 0);
+    transpose(rows, simd_lanes);
   }
-  for (int i = 0; i < simd_lanes; i += 2) {
-    b[i] = _mm256_unpacklo_ps(a[i], a[i + 1]);
-    b[i + 1] = _mm256_unpackhi_ps(a[i], a[i + 1]);
+
+  Float8 number() { return columns_[taken_++]; }
+  Vec8 vector() {
+    taken_ += 3;
+    return {columns_[taken_ - 3], columns_[taken_ - 2], columns_[taken_ - 1]};
   }
-  for (int i = 0; i < simd_lanes; i += 4) {
-    for (int k = 0; k < 2; ++k) {
-      a[i + 2 * k] = _mm256_shuffle_ps(b[i + k], b[i + k + 2], 0x44);
-      a[i + 2 * k + 1] = _mm256_shuffle_ps(b[i + k], b[i + k + 2], 0xee);
+
+ private:
+  /// Eight floats of each row, from number `first` on.
+  template <class Row>
+  [[gnu::always_inline]] void transpose(const Row* const (&rows)[simd_lanes], int first) {
+    __m256 a[simd_lanes];
+    __m256 b[simd_lanes];
+    for (int i = 0; i < simd_lanes; ++i) {
+      a[i] = _mm256_loadu_ps(reinterpret_cast<const float*>(rows[i]) + first);
+    }
+    for (int i = 0; i < simd_lanes; i += 2) {
+      b[i] = _mm256_unpacklo_ps(a[i], a[i + 1]);
+      b[i + 1] = _mm256_unpackhi_ps(a[i], a[i + 1]);
+    }
+    for (int i = 0; i < simd_lanes; i += 4) {
+      for (int k = 0; k < 2; ++k) {
+        a[i + 2 * k] = _mm256_shuffle_ps(b[i + k], b[i + k + 2], 0x44);
+        a[i + 2 * k + 1] = _mm256_shuffle_ps(b[i + k], b[i + k + 2], 0xee);
+      }
+    }
+    for (int i = 0; i < 4; ++i) {
+      columns_[first + i] = Float8(_mm256_permute2f128_ps(a[i], a[i + 4], 0x20));
+      columns_[first + i + 4] = Float8(_mm256_permute2f128_ps(a[i], a[i + 4], 0x31));
     }
   }
-  for (int i = 0; i < 4; ++i) {
-    columns[i] = Float8(_mm256_permute2f128_ps(a[i], a[i + 4], 0x20));
-    columns[i + 4] = Float8(_mm256_permute2f128_ps(a[i], a[i + 4], 0x31));
-  }
-}
+
+  Float8 columns_[2 * simd_lanes];
+  int taken_ = 0;
+};
 
 }  // namespace quartet

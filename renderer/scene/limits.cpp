@@ -14,12 +14,6 @@ bool within(float value, double least, double most) {
   return value >= float(least) && value <= float(most);
 }
 
-bool is_position(const glm::vec3& p) {
-  return within(p.x, -largest_coordinate, largest_coordinate) &&
-         within(p.y, -largest_coordinate, largest_coordinate) &&
-         within(p.z, -largest_coordinate, largest_coordinate);
-}
-
 std::string place_text(std::string_view what, const glm::vec3& p) {
   return fmt::format("{} is ({}, {}, {}), each coordinate must be from {} to {}", what, p.x, p.y,
                      p.z, -largest_coordinate, largest_coordinate);
@@ -44,41 +38,13 @@ std::string axes_fault(const Camera& camera) {
   return {};
 }
 
-/// The corners of the box around a shape.
-struct Box {
-  glm::vec3 low{0.0f};
-  glm::vec3 high{0.0f};
-};
-
-Box box_of(const Mesh& mesh) {
-  if (mesh.triangles.empty()) {
-    return {};
-  }
-  const glm::vec3 first = mesh.positions[mesh.triangles.front().x];
-  Box box{first, first};
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const glm::vec3 corner = mesh.positions[triangle[i]];
-      if (!is_position(corner)) {
-        return {corner, corner};  // a minimum would lose what is not a number
-      }
-      box.low = glm::min(box.low, corner);
-      box.high = glm::max(box.high, corner);
-    }
-  }
-  return box;
-}
-
-Box box_of(const Sphere& sphere) {
-  return {sphere.center - sphere.radius, sphere.center + sphere.radius};
-}
-
-Box box_of(const Disk& disk) {
-  const glm::vec3 reach = disk.radius * glm::sqrt(glm::max(1.0f - disk.normal * disk.normal, 0.0f));
-  return {disk.center - reach, disk.center + reach};
-}
-
 }  // namespace
+
+bool is_position(const glm::vec3& p) {
+  return within(p.x, -largest_coordinate, largest_coordinate) &&
+         within(p.y, -largest_coordinate, largest_coordinate) &&
+         within(p.z, -largest_coordinate, largest_coordinate);
+}
 
 std::string camera_fault(const Camera& camera) {
   if (!is_position(camera.origin)) {
@@ -122,7 +88,7 @@ std::string position_fault(const glm::vec3& position) {
 
 std::string geometry_fault(const Shape& shape) {
   const auto [low, high] =
-      std::visit([](const auto& geometry) { return box_of(geometry); }, shape.geometry);
+      std::visit([](const auto& geometry) { return geometry.box(); }, shape.geometry);
   for (const glm::vec3& corner : {low, high}) {
     if (!is_position(corner)) {
       return place_text("too far out to render: a corner of it", corner);

@@ -54,6 +54,9 @@ std::string camera_fault(const Camera& camera);
 /// Of a picture in pixels.
 std::string picture_size_fault(int width, int height);
 
+/// Whether each coordinate is a number from -largest_coordinate to largest_coordinate.
+bool is_position(const glm::vec3& p);
+
 /// Of a place: a shape's or a light's.
 std::string position_fault(const glm::vec3& position);
 

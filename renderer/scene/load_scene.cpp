@@ -88,7 +88,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneParameters& param
     type->read(builder, part);
   }
   if (!has_camera) builder.xml.fail(root, "no camera, expected <sensor type=\"perspective\">");
-  const bool lit = scene.environment != glm::vec3(0.0f) || !scene.points.empty() ||
+  const bool lit = shines(scene.environment) || !scene.delta_lights.empty() ||
                    std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                [](const Shape& shape) { return shape.emits; });
   if (!lit) {
@@ -97,7 +97,7 @@ Scene load_scene(const std::filesystem::path& path, const SceneParameters& param
         "no light, expected an <emitter type=\"area\"> in a shape, or an <emitter> of type "
         "\"constant\" or \"point\"");
   }
-  warn_of_dim_points(builder);
+  warn_of_dim_lights(builder);
   return std::move(scene);
 }
 

@@ -98,7 +98,7 @@ Scene synthetic_scene(const Synthetic& row) {
   Scene scene;
   scene.name = fmt::format("{}{}", prefix, row.id);
   scene.path = scene.name;
-  scene.environment = glm::vec3(float(row.mean));
+  scene.environment = ConstantEnvironment{glm::vec3(float(row.mean))};
   scene.width = 96;
   scene.height = 64;
   return scene;

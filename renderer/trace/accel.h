@@ -6,8 +6,8 @@
 #include <memory>
 #include <stop_token>
 
-#include "renderer/scene/scene.h"
 #include "renderer/base/wide.h"
+#include "renderer/scene/scene.h"
 
 struct RTCSceneTy;
 

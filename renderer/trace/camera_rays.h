@@ -1,8 +1,8 @@
 #pragma once
 
+#include "renderer/base/warp.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/accel.h"
-#include "renderer/base/warp.h"
 #include "renderer/trace/sampler.h"
 
 namespace quartet {

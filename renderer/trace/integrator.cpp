@@ -32,13 +32,13 @@ RenderSettings default_settings(const Scene& scene) {
 
 std::string why_not(const Scene& scene, IntegratorId key) {
   const Integrator& row = integrator(key);
-  if (row.finds_points || scene.points.empty()) {
+  if (row.finds_points || scene.delta_lights.empty()) {
     return {};
   }
   return fmt::format(
       "integrator {} cannot find point lights, and the scene '{}' has {}: its picture would be too "
       "dark; mis can",
-      row.id, scene.name, scene.points.size());
+      row.id, scene.name, scene.delta_lights.size());
 }
 
 void check_integrator(const Scene& scene, IntegratorId key) {

@@ -110,9 +110,10 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
       const float weight = NextEvent && bsdf_pdf > 0.0f
                                ? detail::power_heuristic(bsdf_pdf, scene.lights().environment_pdf())
                                : 1.0f;
-      observer.missed(scene.scene().environment, weight);
+      const glm::vec3 environment = scene.environment(ray.direction);
+      observer.missed(environment, weight);
       observer.ended(PathEnd::escaped);
-      return radiance + weight * throughput * scene.scene().environment;
+      return radiance + weight * throughput * environment;
     }
     const Surface surface = scene.surface(ray, hit);
     observer.vertex(surface, hit.t, throughput);

@@ -134,6 +134,10 @@ class PathQueue {
   int made_ = 0;
 };
 
+/// The materials that eight paths met, where they are not diffuse. One array serves all vertices:
+/// to make one is not free.
+using Bsdfs = Bsdf[simd_lanes];
+
 /// What eight paths met.
 struct Vertices {
   Surface8 surface;
@@ -141,7 +145,7 @@ struct Vertices {
   Mask8 two_sided{};
   Mask8 diffuse;
   Mask8 specular{};
-  Bsdf bsdf[simd_lanes];  // where not diffuse
+  const Bsdf* bsdfs;
 };
 
 Ray lane_of(const Ray8& rays, int lane) {
@@ -151,10 +155,12 @@ Hit lane_of(const Hit8& hits, int lane) {
   return {hits.t[lane], hits.u[lane], hits.v[lane], hits.shape[lane], hits.primitive[lane]};
 }
 
-Vertices vertices_at(const TraceScene& scene, const Ray8& rays, const Hit8& hits, Mask8 wanted) {
+Vertices vertices_at(const TraceScene& scene, const Ray8& rays, const Hit8& hits, Mask8 wanted,
+                     Bsdfs& bsdfs) {
   static constexpr Facet nothing{};
   Vertices vertices;
   vertices.diffuse = wanted;
+  vertices.bsdfs = bsdfs;
   Facet made[simd_lanes];
   const Facet* facets[simd_lanes];
   Mask8 bent{};
@@ -168,30 +174,30 @@ Vertices vertices_at(const TraceScene& scene, const Ray8& rays, const Hit8& hits
       // A surface of another kind comes as a facet without edges.
       const Surface surface = scene.surface(lane_of(rays, i), lane_of(hits, i));
       const Bsdf bsdf = scene.bsdf(surface);
-      made[i] = {surface.position, {}, {}, surface.normal, surface.offset, bsdf.reflectance};
+      const Diffuse::AtPoint* diffuse = std::get_if<Diffuse::AtPoint>(&bsdf.kind);
+      made[i] = {surface.position,
+                 {},
+                 {},
+                 surface.normal,
+                 surface.offset,
+                 diffuse ? diffuse->reflectance : glm::vec3(0.0f)};
       facets[i] = &made[i];
       bent[i] = -1;
       set_lane(vertices.surface.shading_normal, i, surface.shading_normal);
-      vertices.diffuse[i] = -int(bsdf.kind == MaterialKind::diffuse);
+      vertices.diffuse[i] = -int(diffuse != nullptr);
       vertices.specular[i] = -int(is_specular(bsdf));
-      vertices.bsdf[i] = bsdf;
+      bsdfs[i] = bsdf;
     }
   });
-  const float* rows[simd_lanes];
-  Float8 columns[2 * simd_lanes];
-  for (const std::ptrdiff_t first : {0, simd_lanes}) {
-    for (int i = 0; i < simd_lanes; ++i) {
-      rows[i] = &facets[i]->corner.x + first;
-    }
-    transpose(rows, columns + first);
-  }
-  const auto column = [&](int i) { return Vec8{columns[i], columns[i + 1], columns[i + 2]}; };
+  Columns columns(facets);
+  const Facet8 facet{columns.vector(), columns.vector(), columns.vector(),
+                     columns.vector(), columns.number(), columns.vector()};
   Surface8& surface = vertices.surface;
-  surface.position = column(0) + hits.u * column(3) + hits.v * column(6);
-  surface.normal = column(9);
+  surface.position = facet.corner + hits.u * facet.edge1 + hits.v * facet.edge2;
+  surface.normal = facet.normal;
   surface.shading_normal = select(bent, surface.shading_normal, surface.normal);
-  surface.offset = columns[12];
-  vertices.reflectance = column(13);
+  surface.offset = facet.offset;
+  vertices.reflectance = facet.reflectance;
   return vertices;
 }
 
@@ -208,7 +214,7 @@ BsdfValue8 evaluate(const Vertices& vertices, const Vec8& wo, const Vec8& wi, Ma
   const Float8 pdf = none ? Float8{} : cosine * (1.0f / pi);
   BsdfValue8 value{vertices.reflectance * pdf, pdf};
   for_each_lane(wanted & ~vertices.diffuse, [&](int i) {
-    const BsdfValue one = evaluate(vertices.bsdf[i], lane_of(wo, i), lane_of(wi, i));
+    const BsdfValue one = evaluate(vertices.bsdfs[i], lane_of(wo, i), lane_of(wi, i));
     set_lane(value.f_cos, i, one.f_cos);
     value.pdf[i] = one.pdf;
   });
@@ -233,7 +239,7 @@ BsdfSample8 sample(const Vertices& vertices, const Vec8& wo, Float8 u, Float8 v,
   s.wi.z = below ? -s.wi.z : s.wi.z;
   s.eta_scale = splat(1.0f);
   for_each_lane(wanted & ~vertices.diffuse, [&](int i) {
-    const BsdfSample one = sample(vertices.bsdf[i], lane_of(wo, i), u[i], v[i]);
+    const BsdfSample one = sample(vertices.bsdfs[i], lane_of(wo, i), u[i], v[i]);
     set_lane(s.wi, i, one.wi);
     set_lane(s.weight, i, one.weight);
     s.pdf[i] = one.specular ? 0.0f : one.pdf;
@@ -255,7 +261,7 @@ void add_found_light(const TraceScene& scene, Paths& paths) {
     const Float8 weight =
         weighted ? detail::power_heuristic(paths.bsdf_pdf, splat(scene.lights().environment_pdf()))
                  : 1.0f;
-    const Vec8 light = weight * paths.throughput * splat(scene.scene().environment);
+    const Vec8 light = weight * paths.throughput * scene.environment(paths.ray.direction);
     paths.radiance = select(missed, paths.radiance + light, paths.radiance);
   }
   for_each_lane(paths.active & hits.met, [&](int i) {
@@ -297,14 +303,14 @@ void add_next_event(const TraceScene& scene, const Vertices& vertices, const Fra
 
 /// Moves all active paths on, from what they met to their next rays.
 template <bool NextEvent>
-void advance(const TraceScene& scene, int max_depth, Paths& paths) {
+void advance(const TraceScene& scene, int max_depth, Bsdfs& bsdfs, Paths& paths) {
   add_found_light<NextEvent>(scene, paths);
   paths.finish(paths.active & ~(paths.hit.met & (paths.depth < max_depth)));
   if (!any(paths.active)) {
     return;
   }
 
-  const Vertices vertices = vertices_at(scene, paths.ray, paths.hit, paths.active);
+  const Vertices vertices = vertices_at(scene, paths.ray, paths.hit, paths.active, bsdfs);
   const Surface8& surface = vertices.surface;
   const FrameOf<Float8> frame(surface.shading_normal);
   const Vec8 wo = frame.to_local(-paths.ray.direction);
@@ -340,8 +346,9 @@ void trace_lanes(const TraceScene& scene, const RenderSettings& settings, const 
                  std::span<SampleJob> jobs) {
   PathQueue queue(scene, settings, camera, jobs);
   Paths paths;
+  Bsdfs bsdfs;
   for (queue.fill(paths); any(paths.active); queue.fill(paths)) {
-    advance<NextEvent>(scene, settings.max_depth, paths);
+    advance<NextEvent>(scene, settings.max_depth, bsdfs, paths);
     paths.trace(scene);
   }
 }

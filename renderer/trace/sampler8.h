@@ -1,7 +1,7 @@
 #pragma once
 
-#include "renderer/trace/sampler.h"
 #include "renderer/base/wide.h"
+#include "renderer/trace/sampler.h"
 
 namespace quartet {
 

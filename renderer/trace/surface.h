@@ -28,13 +28,17 @@ struct Surface8 {
   Float8 offset;
 };
 
-/// What tracing wants to know of a triangle, worked out once and in one cache line.
-struct alignas(64) Facet {
-  glm::vec3 corner, edge1, edge2;
-  glm::vec3 normal;  ///< unit length
-  float offset;
-  glm::vec3 reflectance{0.0f};  ///< of its material, where that has one everywhere
+/// What tracing wants to know of a triangle, worked out once and in one cache line; of one, or of
+/// eight.
+template <class F>
+struct alignas(64) FacetOf {
+  Vec3<F> corner, edge1, edge2;
+  Vec3<F> normal;  ///< unit length
+  F offset;
+  Vec3<F> reflectance{};  ///< of its material, where that has one everywhere
 };
+using Facet = FacetOf<float>;
+using Facet8 = FacetOf<Float8>;
 
 /// Throws Cancelled soon after `stop` was asked for.
 std::vector<Facet> facets_of(const Mesh& mesh, const std::stop_token& stop = {});

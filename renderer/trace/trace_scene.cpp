@@ -1,15 +1,6 @@
 #include "renderer/trace/trace_scene.h"
 
 namespace quartet {
-namespace {
-
-bool is_textured(const Shape& shape, const Material& material) {
-  const auto textured = [](const Color& color) { return color.texture != Color::no_texture; };
-  return textured(material.reflectance) || textured(material.transmittance) ||
-         (shape.emits && textured(shape.radiance));
-}
-
-}  // namespace
 
 TraceScene::TraceScene(Scene scene, const std::stop_token& stop)
     : scene_(std::move(scene)),
@@ -23,14 +14,14 @@ TraceScene::TraceScene(Scene scene, const std::stop_token& stop)
     record.material = &material;
     record.facets = mesh ? facets_of(*mesh, stop) : std::vector<Facet>();
     record.smooth = mesh && !mesh->normals.empty();
-    record.textured = is_textured(shape, material);
-    record.plain =
-        mesh && !record.smooth && !record.textured && material.kind == MaterialKind::diffuse;
+    record.textured = is_textured(material) || (shape.emits && shape.radiance.is_textured());
+    const Diffuse* diffuse = std::get_if<Diffuse>(&material.kind);
+    record.plain = mesh && diffuse && !record.smooth && !record.textured;
     record.emits = shape.emits;
-    record.two_sided = record.material->two_sided;
+    record.two_sided = material.two_sided;
     if (record.plain) {
       for (Facet& facet : record.facets) {
-        facet.reflectance = material.reflectance.value;
+        facet.reflectance = diffuse->reflectance.value;
       }
     }
   }
@@ -38,10 +29,15 @@ TraceScene::TraceScene(Scene scene, const std::stop_token& stop)
 
 Surface TraceScene::surface_without_facets(const ShapeRecord& record, const Ray& ray,
                                            const Hit& hit) {
-  if (const Sphere* sphere = std::get_if<Sphere>(&record.shape->geometry)) {
-    return surface_at(*sphere, ray, hit);
-  }
-  return surface_at(std::get<Disk>(record.shape->geometry), ray, hit);
+  return std::visit(
+      [&]<class Kind>(const Kind& geometry) {
+        if constexpr (std::is_same_v<Kind, Mesh>) {
+          return surface_at(record.facets[hit.primitive], hit);
+        } else {
+          return surface_at(geometry, ray, hit);
+        }
+      },
+      record.shape->geometry);
 }
 
 }  // namespace quartet

@@ -6,8 +6,7 @@
 #include "renderer/scene/scene.h"
 #include "renderer/trace/accel.h"
 #include "renderer/trace/bsdf.h"
-#include "renderer/trace/color_at.h"
-#include "renderer/trace/lights.h"
+#include "renderer/trace/light_sampler.h"
 #include "renderer/trace/surface.h"
 
 namespace quartet {
@@ -24,7 +23,7 @@ class TraceScene {
 
   const Scene& scene() const { return scene_; }
   const Accel& accel() const { return accel_; }
-  const Lights& lights() const { return lights_; }
+  const LightSampler& lights() const { return lights_; }
 
   /// The facet that was hit, if it says everything of the surface: flat, of one diffuse colour.
   /// Else null.
@@ -54,8 +53,13 @@ class TraceScene {
   glm::vec3 emitted(const Surface& surface, glm::vec3 direction) const {
     const ShapeRecord& record = records_[surface.shape];
     return record.emits && glm::dot(direction, surface.normal) < 0.0f
-               ? color_at(scene_, record.shape->radiance, surface.uv)
+               ? color_at(scene_.textures, record.shape->radiance, surface.uv)
                : glm::vec3(0.0f);
+  }
+  /// Radiance that arrives against `direction`, of one ray or eight, where no shape is met.
+  template <class Vector>
+  Vector environment(const Vector& direction) const {
+    return std::visit([&](const auto& kind) { return kind.at(direction); }, scene_.environment);
   }
 
  private:
@@ -75,7 +79,7 @@ class TraceScene {
 
   Scene scene_;
   Accel accel_;
-  Lights lights_;
+  LightSampler lights_;
   std::vector<ShapeRecord> records_;
 };
 

@@ -20,7 +20,7 @@ std::shared_ptr<const TraceScene> ball_under_a_sky() {
   scene.width = 2;
   scene.height = 2;
   scene.max_depth = 3;
-  scene.environment = glm::vec3(1.0f);
+  scene.environment = ConstantEnvironment{glm::vec3(1.0f)};
   scene.materials.emplace_back();
   Shape ball;
   ball.geometry = Sphere{.center = {0.0f, 0.0f, 3.0f}};

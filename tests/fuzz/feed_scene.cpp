@@ -54,6 +54,36 @@ void promise_geometry(const Mesh& mesh) {
   promise_mesh(mesh);
 }
 
+void promise_numbers(const Diffuse&) {
+}
+
+void promise_numbers(const Metal& metal) {
+  promise_finite(metal.eta, "an index of refraction");
+  promise_finite(metal.k, "an extinction");
+}
+
+void promise_numbers(const Conductor& conductor) {
+  promise_numbers(conductor.metal);
+}
+
+void promise_numbers(const RoughConductor& conductor) {
+  promise_numbers(conductor.metal);
+  promise_finite({conductor.alpha}, "a roughness");
+}
+
+void promise_numbers(const Dielectric& dielectric) {
+  promise_finite({dielectric.ior}, "an index of refraction");
+}
+
+void promise_numbers(const PointLight& light) {
+  promise_finite(light.position, "a light's place");
+  promise_finite(light.intensity, "a light's intensity");
+}
+
+void promise_numbers(const ConstantEnvironment& environment) {
+  promise_finite(environment.radiance, "the environment");
+}
+
 void promise_camera(const Camera& camera) {
   promise_finite(camera.origin, "the camera's place");
   for (const glm::vec3 axis : {camera.right, camera.up, camera.forward}) {
@@ -67,7 +97,7 @@ void promise_scene(const Scene& scene) {
   promise(scene.width > 0 && scene.height > 0, "the picture has no pixels");
   promise(scene.max_depth >= 1, "paths have no segments");
   promise_camera(scene.camera);
-  promise_finite(scene.environment, "the environment");
+  std::visit([](const auto& kind) { promise_numbers(kind); }, scene.environment);
   for (const Shape& shape : scene.shapes) {
     promise(shape.material >= 0 && std::size_t(shape.material) < scene.materials.size(),
             "a shape has a material that is not there");
@@ -75,15 +105,15 @@ void promise_scene(const Scene& scene) {
     std::visit([](const auto& geometry) { promise_geometry(geometry); }, shape.geometry);
   }
   for (const Material& material : scene.materials) {
-    promise_color(scene, material.reflectance);
-    promise_color(scene, material.transmittance);
-    promise_finite(material.eta, "an index of refraction");
-    promise_finite(material.k, "an extinction");
-    promise_finite({material.ior, material.alpha}, "a material");
+    std::visit(
+        [&](const auto& kind) {
+          for (const Color& color : kind.colors()) promise_color(scene, color);
+          promise_numbers(kind);
+        },
+        material.kind);
   }
-  for (const PointLight& light : scene.points) {
-    promise_finite(light.position, "a light's place");
-    promise_finite(light.intensity, "a light's intensity");
+  for (const DeltaLight& light : scene.delta_lights) {
+    std::visit([](const auto& kind) { promise_numbers(kind); }, light);
   }
   for (const std::string& warning : scene.warnings) {
     promise_message(warning, "scene.xml:");

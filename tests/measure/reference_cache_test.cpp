@@ -42,7 +42,7 @@ TEST(ReferenceCache, EachThingThatSamplesDependOnButTheSeedHasAFileOfItsOwn) {
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.aperture_radius += 0.1f; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.focus_distance += 0.1f; }));
   Scene other = scene;
-  other.environment.x += 0.5f;
+  other.environment = ConstantEnvironment{glm::vec3(0.5f, 0.0f, 0.0f)};
   EXPECT_TRUE(add(other, settings));
 }
 

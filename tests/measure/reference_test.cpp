@@ -277,7 +277,7 @@ TEST(Reference, FitsItsOwnSceneAndSaysWhyItFitsNoOther) {
     expect_reason(other, "same random numbers");
   }
   Scene redder = box()->scene();
-  redder.materials[0].reflectance.value.r += 1e-6f;
+  std::get<Diffuse>(redder.materials[0].kind).reflectance.value.r += 1e-6f;
   EXPECT_NE(reason(redder, run).find("hash"), std::string::npos);
 }
 
@@ -320,7 +320,7 @@ TEST(Reference, OfAnIntegratorThatMissesLightIsRefused) {
   run.seed = 1;
   reference.scene_hash = scene_hash(scene);
   EXPECT_EQ(error_of([&] { check_reference(reference, scene, run); }), "");
-  scene.points.push_back({});
+  scene.delta_lights.emplace_back();
   reference.scene_hash = scene_hash(scene);
   EXPECT_NE(error_of([&] {
               check_reference(reference, scene, run);
@@ -469,9 +469,9 @@ TEST(SceneHash, IsOfWhatIsRendered) {
   EXPECT_EQ(scene_hash(renamed), hash);
 
   std::vector<Scene> changed(8, scene);
-  changed[0].materials[0].reflectance.value.b += 1e-7f;
+  std::get<Diffuse>(changed[0].materials[0].kind).reflectance.value.b += 1e-7f;
   changed[1].materials[0].two_sided = !scene.materials[0].two_sided;
-  changed[2].environment.g = 0.1f;
+  changed[2].environment = ConstantEnvironment{{0.0f, 0.1f, 0.0f}};
   changed[3].textures.emplace_back();
   std::get<Mesh>(changed[4].shapes[0].geometry).positions[0].y += 1e-3f;
   changed[5].shapes.pop_back();

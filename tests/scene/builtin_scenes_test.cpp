@@ -73,7 +73,7 @@ TEST(CornellChecker, CameraHasXToTheRight) {
   EXPECT_EQ(scene.camera.aperture_radius, 0.0f);
   EXPECT_EQ(scene.width, 960);
   EXPECT_EQ(scene.height, 540);
-  EXPECT_EQ(scene.environment, glm::vec3(0.0f));
+  EXPECT_FALSE(shines(scene.environment));
   // The glass ball stands on the right, the mirror ball on the left.
   EXPECT_GT(project(scene.camera, {400, 150, 250}).x, 0.0f);
   EXPECT_LT(project(scene.camera, {185, 225, 168.5f}).x, 0.0f);
@@ -83,8 +83,8 @@ TEST(CornellChecker, SquaresOf70StartDarkInTheLowerLeftOfThePicture) {
   const Scene scene = load_scene(find_scene("cornell-checker"));
   const Shape& wall = shape_of(scene, "back-wall");
   const Mesh& mesh = std::get<Mesh>(wall.geometry);
-  const Checkerboard& board = scene.textures.at(
-      std::size_t(scene.materials[std::size_t(wall.material)].reflectance.texture));
+  const int texture = kind_of<Diffuse>(scene, wall).reflectance.texture;
+  const auto& board = std::get<Checkerboard>(scene.textures.at(std::size_t(texture)));
   expect_near(front(mesh), {0, 0, -1});
 
   // uv is affine on the parallelogram: corner 0, and the edges to corners 1 and 3.
@@ -146,10 +146,9 @@ TEST(CornellChecker, WallsBoxAndLightsAreWhereTheReportHasThem) {
     expect_near(low, wall.low, 1e-4f);
     expect_near(high, wall.high, 1e-4f);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) expect_near(front(mesh, i), wall.front);
-    const Material& material = scene.materials[std::size_t(shape.material)];
-    EXPECT_EQ(material.kind, MaterialKind::diffuse);
-    if (material.reflectance.texture == Color::no_texture) {
-      EXPECT_EQ(material.reflectance.value, wall.reflectance);
+    const Color& reflectance = kind_of<Diffuse>(scene, shape).reflectance;
+    if (!reflectance.is_textured()) {
+      EXPECT_EQ(reflectance.value, wall.reflectance);
     }
     const bool is_light = wall.id.starts_with("light");
     EXPECT_EQ(shape.emits, is_light);
@@ -192,13 +191,11 @@ TEST(CornellChecker, BoxAndBalls) {
   const Shape& glass = shape_of(scene, "glass-ball");
   expect_near(std::get<Sphere>(glass.geometry).center, {400, 150, 250});
   EXPECT_EQ(std::get<Sphere>(glass.geometry).radius, 100.0f);
-  EXPECT_EQ(scene.materials[std::size_t(glass.material)].kind, MaterialKind::dielectric);
-  EXPECT_FLOAT_EQ(scene.materials[std::size_t(glass.material)].ior, 1.517f);
+  EXPECT_FLOAT_EQ(kind_of<Dielectric>(scene, glass).ior, 1.517f);
   const Shape& mirror = shape_of(scene, "mirror-ball");
   expect_near(std::get<Sphere>(mirror.geometry).center, {185, 225, 168.5f});
   EXPECT_EQ(std::get<Sphere>(mirror.geometry).radius, 60.0f);
-  const Material& metal = scene.materials[std::size_t(mirror.material)];
-  EXPECT_EQ(metal.kind, MaterialKind::conductor);
+  const Metal& metal = kind_of<Conductor>(scene, mirror).metal;
   EXPECT_EQ(metal.eta, glm::vec3(0.0f));
   EXPECT_EQ(metal.reflectance.value, glm::vec3(1.0f));
 }
@@ -206,8 +203,7 @@ TEST(CornellChecker, BoxAndBalls) {
 TEST(CornellBox, RedIsLeftAndGreenRight) {
   const Scene scene = load_scene(find_scene("cornell-box"));
   EXPECT_EQ(scene.width, scene.height);
-  EXPECT_GT(scene.materials[std::size_t(shape_of(scene, "left-wall").material)].reflectance.value.x,
-            0.6f);
+  EXPECT_GT(kind_of<Diffuse>(scene, shape_of(scene, "left-wall")).reflectance.value.x, 0.6f);
   EXPECT_LT(project(scene.camera, {552, 270, 280}).x, 0.0f);
   EXPECT_GT(project(scene.camera, {0, 270, 280}).x, 0.0f);
   EXPECT_NEAR(std::tan(glm::radians(0.5f * scene.camera.fov)), 12.5f / 35.0f, 1e-6f);
@@ -224,8 +220,12 @@ TEST(Furnace, AlbedoIsAParameter) {
   const auto scene = [](const SceneParameters& parameters) {
     return load_scene(find_scene("furnace"), parameters);
   };
-  EXPECT_EQ(scene({}).materials[0].reflectance.value, glm::vec3(0.5f));
-  EXPECT_EQ(scene({{"albedo", "0.8"}}).materials[0].reflectance.value, glm::vec3(0.8f));
+  const auto albedo = [&](const SceneParameters& parameters) {
+    const Scene furnace = scene(parameters);
+    return kind_of<Diffuse>(furnace, furnace.shapes[0]).reflectance.value;
+  };
+  EXPECT_EQ(albedo({}), glm::vec3(0.5f));
+  EXPECT_EQ(albedo({{"albedo", "0.8"}}), glm::vec3(0.8f));
   EXPECT_TRUE(std::get<Sphere>(scene({}).shapes[0].geometry).flip_normals);
   EXPECT_TRUE(scene({}).shapes[0].emits);
 }
@@ -241,8 +241,7 @@ TEST(VeachPlates, EachPlateMirrorsTheRowOfLightsToTheCamera) {
     const glm::vec3 view = glm::normalize(center - scene.camera.origin);
     const glm::vec3 reflected = glm::reflect(view, front(mesh));
     expect_near(reflected, glm::normalize(glm::vec3(0.0f, 5.2f, -2.2f) - center), 1e-4f);
-    const Material& material = scene.materials[std::size_t(plate.material)];
-    EXPECT_EQ(material.kind, MaterialKind::rough_conductor);
+    const auto& material = kind_of<RoughConductor>(scene, plate);
     EXPECT_GT(material.alpha, alpha);
     alpha = material.alpha;
   }

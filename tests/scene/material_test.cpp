@@ -13,23 +13,27 @@ Material material_of(const Scene& scene) {
   return scene.materials.at(std::size_t(scene.shapes.at(0).material));
 }
 
-Material material(std::string_view bsdf) {
+glm::vec3 albedo_of(const Scene& scene) {
+  return kind_of<Diffuse>(scene, scene.shapes.at(0)).reflectance.value;
+}
+
+template <class Kind>
+Kind material(std::string_view bsdf) {
   const Scene scene = load_body(with_bsdf(bsdf));
   EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
-  return material_of(scene);
+  return kind_of<Kind>(scene, scene.shapes.at(0));
 }
 
 TEST(Material, DefaultIsDiffuseHalf) {
   const Scene scene = load_body("<shape type=\"cube\"/><shape type=\"cube\"/>");
   EXPECT_EQ(scene.materials.size(), 1u);
-  EXPECT_EQ(material_of(scene).kind, MaterialKind::diffuse);
-  EXPECT_EQ(material_of(scene).reflectance.value, glm::vec3(0.5f));
+  EXPECT_EQ(albedo_of(scene), glm::vec3(0.5f));
   EXPECT_FALSE(material_of(scene).two_sided);
 }
 
 TEST(Material, ColorForms) {
   const auto reflectance = [](std::string_view slot) {
-    return material(std::string(R"(<bsdf type="diffuse">)").append(slot).append("</bsdf>"))
+    return material<Diffuse>(std::string(R"(<bsdf type="diffuse">)").append(slot).append("</bsdf>"))
         .reflectance.value;
   };
   EXPECT_EQ(reflectance(R"(<rgb name="reflectance" value="0.1, 0.2, 0.3"/>)"),
@@ -48,7 +52,7 @@ TEST(Material, ColorForms) {
 TEST(Material, SpectrumByWavelengthBecomesItsMeanWithAWarning) {
   const Scene scene = load_body(with_bsdf(
       R"(<bsdf type="diffuse"><spectrum name="reflectance" value="400:0.2, 700:0.4"/></bsdf>)"));
-  expect_near(material_of(scene).reflectance.value, glm::vec3(0.3f));
+  expect_near(albedo_of(scene), glm::vec3(0.3f));
   expect_one_warning(scene, 3, "by wavelength becomes grey");
 }
 
@@ -66,27 +70,30 @@ TEST(Material, ReflectanceRange) {
   expect_message(error_of(body("1e39")), 3, "expected finite numbers");
   const Scene scene = load_body(body("1.5"));
   expect_one_warning(scene, 3, "above 1");
-  EXPECT_EQ(material_of(scene).reflectance.value, glm::vec3(1.5f));
+  EXPECT_EQ(albedo_of(scene), glm::vec3(1.5f));
 }
 
 TEST(Material, ConductorDefaultsToAPerfectMirror) {
-  const Material mirror = material(R"(<bsdf type="conductor"/>)");
-  EXPECT_EQ(mirror.kind, MaterialKind::conductor);
+  const Metal mirror = material<Conductor>(R"(<bsdf type="conductor"/>)").metal;
   EXPECT_EQ(mirror.eta, glm::vec3(0.0f));
   EXPECT_EQ(mirror.k, glm::vec3(1.0f));
   EXPECT_EQ(mirror.reflectance.value, glm::vec3(1.0f));
 }
 
 TEST(Material, ConductorByNameAndByNumbers) {
-  const Material copper =
-      material(R"(<bsdf type="conductor"><string name="material" value="Cu"/></bsdf>)");
+  const Metal copper =
+      material<Conductor>(R"(<bsdf type="conductor"><string name="material" value="Cu"/></bsdf>)")
+          .metal;
   expect_near(copper.eta, {0.200438f, 0.924033f, 1.10221f});
   expect_near(copper.k, {3.91295f, 2.45285f, 2.14219f});
   for (const std::string name : {"Ag", "Al", "Au", "Cr", "W", "none"}) {
-    material(R"(<bsdf type="conductor"><string name="material" value=")" + name + "\"/></bsdf>");
+    material<Conductor>(R"(<bsdf type="conductor"><string name="material" value=")" + name +
+                        "\"/></bsdf>");
   }
-  const Material numbers = material(R"(<bsdf type="conductor"><rgb name="eta" value="1, 2, 3"/>
-    <spectrum name="k" value="4"/><rgb name="specular_reflectance" value="0.3"/></bsdf>)");
+  const Metal numbers =
+      material<Conductor>(R"(<bsdf type="conductor"><rgb name="eta" value="1, 2, 3"/>
+    <spectrum name="k" value="4"/><rgb name="specular_reflectance" value="0.3"/></bsdf>)")
+          .metal;
   EXPECT_EQ(numbers.eta, glm::vec3(1, 2, 3));
   EXPECT_EQ(numbers.k, glm::vec3(4.0f));
   EXPECT_EQ(numbers.reflectance.value, glm::vec3(0.3f));
@@ -99,38 +106,39 @@ TEST(Material, ConductorByNameAndByNumbers) {
 }
 
 TEST(Material, RoughConductorIsGgx) {
-  const Material metal = material(R"(<bsdf type="roughconductor"><float name="alpha" value="0.3"/>
+  const auto metal =
+      material<RoughConductor>(R"(<bsdf type="roughconductor"><float name="alpha" value="0.3"/>
     <string name="distribution" value="ggx"/><boolean name="sample_visible" value="true"/></bsdf>)");
-  EXPECT_EQ(metal.kind, MaterialKind::rough_conductor);
   EXPECT_FLOAT_EQ(metal.alpha, 0.3f);
 }
 
 TEST(Material, OtherLobesBecomeGgxWithAWarning) {
   const Scene beckmann = load_body(with_bsdf(R"(<bsdf type="roughconductor"/>)"));
   expect_one_warning(beckmann, 3, "'beckmann' becomes ggx");
-  EXPECT_FLOAT_EQ(material_of(beckmann).alpha, 0.1f);
+  EXPECT_FLOAT_EQ(kind_of<RoughConductor>(beckmann, beckmann.shapes[0]).alpha, 0.1f);
   const Scene brushed = load_body(with_bsdf(R"(<bsdf type="roughconductor">
     <string name="distribution" value="ggx"/>
     <float name="alpha_u" value="0.1"/><float name="alpha_v" value="0.4"/></bsdf>)"));
   expect_one_warning(brushed, 3, "geometric mean");
-  EXPECT_FLOAT_EQ(material_of(brushed).alpha, 0.2f);
+  EXPECT_FLOAT_EQ(kind_of<RoughConductor>(brushed, brushed.shapes[0]).alpha, 0.2f);
   expect_message(
       error_of(with_bsdf(R"(<bsdf type="roughconductor"><float name="alpha" value="-1"/></bsdf>)")),
       3, "alpha of bsdf 'roughconductor' is negative");
 }
 
 TEST(Material, DielectricByNameAndNumber) {
-  EXPECT_FLOAT_EQ(material(R"(<bsdf type="dielectric"/>)").ior, 1.5046f / 1.000277f);
-  const Material glass = material(R"(<bsdf type="dielectric"><float name="int_ior" value="1.517"/>
+  EXPECT_FLOAT_EQ(material<Dielectric>(R"(<bsdf type="dielectric"/>)").ior, 1.5046f / 1.000277f);
+  const auto glass =
+      material<Dielectric>(R"(<bsdf type="dielectric"><float name="int_ior" value="1.517"/>
     <float name="ext_ior" value="1"/><rgb name="specular_transmittance" value="0.9"/></bsdf>)");
-  EXPECT_EQ(glass.kind, MaterialKind::dielectric);
   EXPECT_FLOAT_EQ(glass.ior, 1.517f);
   EXPECT_EQ(glass.transmittance.value, glm::vec3(0.9f));
   EXPECT_EQ(glass.reflectance.value, glm::vec3(1.0f));
-  EXPECT_FLOAT_EQ(material(R"(<bsdf type="dielectric"><string name="int_ior" value="Diamond"/>
+  EXPECT_FLOAT_EQ(
+      material<Dielectric>(R"(<bsdf type="dielectric"><string name="int_ior" value="Diamond"/>
     <string name="ext_ior" value="water"/></bsdf>)")
-                      .ior,
-                  2.419f / 1.333f);
+          .ior,
+      2.419f / 1.333f);
   const auto body = [](std::string_view value) {
     return with_bsdf(std::string("<bsdf type=\"dielectric\">").append(value).append("</bsdf>"));
   };
@@ -146,13 +154,13 @@ TEST(Material, TwoSided) {
     <bsdf type="diffuse"><rgb name="reflectance" value="0.1"/></bsdf></bsdf>)"));
   EXPECT_TRUE(material_of(scene).two_sided);
   EXPECT_EQ(material_of(scene).id, "both");
-  EXPECT_EQ(material_of(scene).reflectance.value, glm::vec3(0.1f));
+  EXPECT_EQ(albedo_of(scene), glm::vec3(0.1f));
   EXPECT_EQ(scene.materials.size(), 1u);
   EXPECT_TRUE(scene.warnings.empty());
   const Scene two = load_body(with_bsdf(R"(<bsdf type="twosided"><bsdf type="diffuse"/>
     <bsdf type="conductor"/></bsdf>)"));
   expect_one_warning(two, 3, "the first one is used for both sides");
-  EXPECT_EQ(material_of(two).kind, MaterialKind::diffuse);
+  EXPECT_TRUE(std::holds_alternative<Diffuse>(material_of(two).kind));
   expect_message(error_of(with_bsdf(R"(<bsdf type="twosided"><bsdf type="dielectric"/></bsdf>)")),
                  3, "twosided' around a dielectric");
   expect_message(error_of(with_bsdf(R"(<bsdf type="twosided"/>)")), 3, "holds no bsdf");
@@ -162,7 +170,7 @@ TEST(Material, UnknownTypeBecomesDiffuseHalf) {
   const Scene scene = load_body(with_bsdf(
       R"(<bsdf type="hair"><rgb name="reflectance" value="0.9"/><bsdf type="diffuse"/></bsdf>)"));
   expect_one_warning(scene, 3, "bsdf 'hair' is not known and becomes diffuse 0.5");
-  EXPECT_EQ(material_of(scene).reflectance.value, glm::vec3(0.5f));
+  EXPECT_EQ(albedo_of(scene), glm::vec3(0.5f));
 }
 
 TEST(Material, ReferencesWorkBeforeAndAfterTheDefinitionAndShareTheMaterial) {
@@ -172,7 +180,7 @@ TEST(Material, ReferencesWorkBeforeAndAfterTheDefinitionAndShareTheMaterial) {
 <shape type="cube"><bsdf type="twosided"><ref id="paint"/></bsdf></shape>)");
   ASSERT_EQ(scene.materials.size(), 2u);
   EXPECT_EQ(scene.shapes[0].material, scene.shapes[1].material);
-  EXPECT_EQ(material_of(scene).reflectance.value, glm::vec3(0.2f));
+  EXPECT_EQ(albedo_of(scene), glm::vec3(0.2f));
   EXPECT_FALSE(material_of(scene).two_sided);
   EXPECT_TRUE(scene.materials[std::size_t(scene.shapes[2].material)].two_sided);
 }
@@ -203,28 +211,31 @@ TEST(Texture, CheckerboardOnAnyColorSlot) {
 <texture name="specular_transmittance" type="checkerboard"/></bsdf></shape>)");
   EXPECT_TRUE(scene.warnings.empty());
   ASSERT_EQ(scene.textures.size(), 2u);
-  EXPECT_EQ(scene.materials[0].reflectance.texture, 0);
-  EXPECT_EQ(scene.materials[1].reflectance.texture, 0);
-  EXPECT_EQ(scene.materials[2].transmittance.texture, 1);
-  EXPECT_EQ(scene.textures[0].color0, glm::vec3(0.1f));
-  EXPECT_EQ(scene.textures[0].color1, glm::vec3(0.9f));
-  EXPECT_EQ(scene.textures[0].to_uv * glm::vec3(1, 1, 1), glm::vec3(4.25f, 2.0f, 1.0f));
-  EXPECT_EQ(scene.textures[1].color0, glm::vec3(0.4f));
-  EXPECT_EQ(scene.textures[1].color1, glm::vec3(0.2f));
+  EXPECT_EQ(kind_of<Diffuse>(scene, scene.shapes[0]).reflectance.texture, 0);
+  EXPECT_EQ(kind_of<Conductor>(scene, scene.shapes[1]).metal.reflectance.texture, 0);
+  EXPECT_EQ(kind_of<Dielectric>(scene, scene.shapes[2]).transmittance.texture, 1);
+  const auto& board = std::get<Checkerboard>(scene.textures[0]);
+  EXPECT_EQ(board.color0, glm::vec3(0.1f));
+  EXPECT_EQ(board.color1, glm::vec3(0.9f));
+  EXPECT_EQ(board.to_uv * glm::vec3(1, 1, 1), glm::vec3(4.25f, 2.0f, 1.0f));
+  const auto& plain = std::get<Checkerboard>(scene.textures[1]);
+  EXPECT_EQ(plain.color0, glm::vec3(0.4f));
+  EXPECT_EQ(plain.color1, glm::vec3(0.2f));
 }
 
 TEST(Texture, UvTransformAsThreeByThreeMatrix) {
   const Scene scene = load_body(with_bsdf(R"(<bsdf type="diffuse">
 <texture name="reflectance" type="checkerboard"><transform name="to_uv">
 <matrix value="3 0 0.5  0 2 0.25  0 0 1"/></transform></texture></bsdf>)"));
-  EXPECT_EQ(scene.textures[0].to_uv * glm::vec3(1, 1, 1), glm::vec3(3.5f, 2.25f, 1.0f));
+  EXPECT_EQ(std::get<Checkerboard>(scene.textures[0]).to_uv * glm::vec3(1, 1, 1),
+            glm::vec3(3.5f, 2.25f, 1.0f));
 }
 
 TEST(Texture, WhereOnlyOneValueCanBeUsedItBecomesTheMean) {
   const Scene scene = load_body(with_bsdf(R"(<bsdf type="conductor">
 <texture name="eta" type="checkerboard"/></bsdf>)"));
   expect_one_warning(scene, 3, "the texture on eta of bsdf 'conductor' becomes the mean");
-  expect_near(material_of(scene).eta, glm::vec3(0.3f));
+  expect_near(kind_of<Conductor>(scene, scene.shapes[0]).metal.eta, glm::vec3(0.3f));
 }
 
 TEST(Texture, ErrorsAndUnknownTypes) {

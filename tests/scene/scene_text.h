@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "renderer/scene/load_scene.h"
 
@@ -55,6 +56,12 @@ inline std::string scene_text(std::string_view body) {
 inline Scene load_text(std::string_view text, const SceneParameters& parameters = {}) {
   const TemporaryFolder folder;
   return load_scene(folder.write("scene.xml", text), parameters);
+}
+
+/// The material of a shape, which must be of this kind.
+template <class Kind>
+const Kind& kind_of(const Scene& scene, const Shape& shape) {
+  return std::get<Kind>(scene.materials.at(std::size_t(shape.material)).kind);
 }
 
 /// Loads `body` with a camera and a light.

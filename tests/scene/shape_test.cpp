@@ -241,7 +241,7 @@ TEST(Light, ConstantFillsTheEnvironment) {
   const Scene scene = load_text("<scene version=\"3.0.0\">" + std::string(sensor) +
                                 R"(<emitter type="constant"><rgb name="radiance" value="1 2 3"/>
                                 <float name="sampling_weight" value="2"/></emitter></scene>)");
-  EXPECT_EQ(scene.environment, glm::vec3(1, 2, 3));
+  EXPECT_EQ(std::get<ConstantEnvironment>(scene.environment).radiance, glm::vec3(1, 2, 3));
   EXPECT_TRUE(scene.warnings.empty());
 }
 
@@ -249,15 +249,17 @@ TEST(Light, PointByPositionOrTransform) {
   const Scene scene = load_body(R"(<emitter type="point"><point name="position" x="1" y="2" z="3"/>
 <rgb name="intensity" value="4, 5, 6"/></emitter>
 <emitter type="point"><transform name="to_world"><translate x="7"/></transform></emitter>)");
-  ASSERT_EQ(scene.points.size(), 2u);
-  EXPECT_EQ(scene.points[0].position, glm::vec3(1.0f, 2.0f, 3.0f));
-  EXPECT_EQ(scene.points[0].intensity, glm::vec3(4.0f, 5.0f, 6.0f));
-  EXPECT_EQ(scene.points[1].position, glm::vec3(7.0f, 0.0f, 0.0f));
-  EXPECT_EQ(scene.points[1].intensity, glm::vec3(1.0f));
+  ASSERT_EQ(scene.delta_lights.size(), 2u);
+  const auto& by_position = std::get<PointLight>(scene.delta_lights[0]);
+  EXPECT_EQ(by_position.position, glm::vec3(1.0f, 2.0f, 3.0f));
+  EXPECT_EQ(by_position.intensity, glm::vec3(4.0f, 5.0f, 6.0f));
+  const auto& by_transform = std::get<PointLight>(scene.delta_lights[1]);
+  EXPECT_EQ(by_transform.position, glm::vec3(7.0f, 0.0f, 0.0f));
+  EXPECT_EQ(by_transform.intensity, glm::vec3(1.0f));
   const Scene dark =
       load_body(R"(<emitter type="point"><rgb name="intensity" value="0"/></emitter>)");
   expect_one_warning(dark, 2, "intensity 0 is left out");
-  EXPECT_TRUE(dark.points.empty());
+  EXPECT_TRUE(dark.delta_lights.empty());
 }
 
 TEST(Light, ReferencedEmitterAndTexturedRadiance) {
@@ -267,7 +269,7 @@ TEST(Light, ReferencedEmitterAndTexturedRadiance) {
   const Shape& lamp = scene.shapes[0];
   EXPECT_TRUE(lamp.emits);
   ASSERT_EQ(lamp.radiance.texture, 0);
-  EXPECT_EQ(scene.textures[0].color0, glm::vec3(5.0f));
+  EXPECT_EQ(std::get<Checkerboard>(scene.textures[0]).color0, glm::vec3(5.0f));
 }
 
 TEST(Light, Errors) {

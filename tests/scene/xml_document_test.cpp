@@ -11,14 +11,16 @@ constexpr std::string_view furnace = R"(<default name="albedo" value="0.25"/>
 TEST(Parameters, DefaultsReplaceWhereverTheyStand) {
   const Scene scene = load_body(furnace);
   EXPECT_EQ(scene.shapes[0].id, "box");
-  EXPECT_EQ(scene.materials[0].reflectance.value, glm::vec3(0.25f, 0.25f, 0.75f));
+  EXPECT_EQ(kind_of<Diffuse>(scene, scene.shapes[0]).reflectance.value,
+            glm::vec3(0.25f, 0.25f, 0.75f));
   EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(Parameters, OverridesWin) {
   const Scene scene = load_body(furnace, {{"albedo", "0.5"}, {"name", "furnace"}});
   EXPECT_EQ(scene.shapes[0].id, "furnace");
-  EXPECT_EQ(scene.materials[0].reflectance.value, glm::vec3(0.5f, 0.5f, 0.75f));
+  EXPECT_EQ(kind_of<Diffuse>(scene, scene.shapes[0]).reflectance.value,
+            glm::vec3(0.5f, 0.5f, 0.75f));
 }
 
 TEST(Parameters, AnOverrideNeedsNoDefault) {

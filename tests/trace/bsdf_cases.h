@@ -13,29 +13,11 @@ namespace quartet::test {
 inline const glm::vec3 gold_eta(0.143f, 0.375f, 1.442f);
 inline const glm::vec3 gold_k(3.983f, 2.386f, 1.603f);
 
-inline Material make(MaterialKind kind, glm::vec3 reflectance = glm::vec3(1.0f)) {
+inline const Metal gold{.eta = gold_eta, .k = gold_k};
+
+inline Material make(const MaterialKind& kind) {
   Material material;
   material.kind = kind;
-  material.reflectance.value = reflectance;
-  return material;
-}
-
-/// A metal that reflects everything.
-inline Material rough(float alpha) {
-  Material material = make(MaterialKind::rough_conductor);
-  material.alpha = alpha;
-  return material;
-}
-
-inline Material gold(Material material) {
-  material.eta = gold_eta;
-  material.k = gold_k;
-  return material;
-}
-
-inline Material glass(float ior) {
-  Material material = make(MaterialKind::dielectric);
-  material.ior = ior;
   return material;
 }
 
@@ -44,39 +26,27 @@ struct BsdfCase {
   Material material;
 };
 
-inline std::string name_of(MaterialKind kind) {
-  switch (kind) {
-    case MaterialKind::diffuse:
-      return "diffuse";
-    case MaterialKind::conductor:
-      return "conductor";
-    case MaterialKind::rough_conductor:
-      return "rough conductor";
-    case MaterialKind::dielectric:
-      break;
-  }
-  return "dielectric";
-}
-
-/// Every kind of material: colours, both metals, the whole range of roughness.
+/// Every kind of material: colours, both metals, the whole range of roughness. Metals other than
+/// gold reflect everything.
 inline std::vector<BsdfCase> bsdf_cases() {
   std::vector<BsdfCase> all;
-  const auto add = [&](Material material, const std::string& detail) {
-    all.push_back({name_of(material.kind) + detail, material});
-    if (material.kind != MaterialKind::dielectric) {
+  const auto add = [&](const MaterialKind& kind, const std::string& name) {
+    Material material = make(kind);
+    all.push_back({name, material});
+    if (!transmits(material)) {
       material.two_sided = true;
-      all.push_back({name_of(material.kind) + detail + ", two-sided", material});
+      all.push_back({name + ", two-sided", material});
     }
   };
-  add(make(MaterialKind::diffuse, {0.8f, 0.5f, 0.0f}), "");
-  add(gold(make(MaterialKind::conductor)), " gold");
-  add(make(MaterialKind::conductor), " mirror");
+  add(Diffuse{{{0.8f, 0.5f, 0.0f}}}, "diffuse");
+  add(Conductor{gold}, "conductor gold");
+  add(Conductor{}, "conductor mirror");
   for (const float alpha : {1e-4f, 0.005f, 0.02f, 0.1f, 0.3f, 0.6f, 1.0f}) {
     const std::string detail = " alpha " + std::to_string(alpha);
-    add(rough(alpha), detail);
-    add(gold(rough(alpha)), " gold" + detail);
+    add(RoughConductor{{}, alpha}, "rough conductor" + detail);
+    add(RoughConductor{gold, alpha}, "rough conductor gold" + detail);
   }
-  add(glass(1.5f), "");
+  add(Dielectric{.ior = 1.5f}, "dielectric");
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <complex>
 #include <glm/glm.hpp>
 
+#include "renderer/scene/materials/fresnel.h"
 #include "renderer/trace/bsdf.h"
 #include "tests/trace/bsdf_cases.h"
 
@@ -85,7 +86,7 @@ TEST(Fresnel, AConductorWithoutRealIndexReflectsEverything) {
 }
 
 TEST(Dielectric, ReflectsAsOftenAsFresnelSaysAndRestoresRadianceOnTheWayOut) {
-  const Material material = glass(1.5f);
+  const Material material = make(Dielectric{.ior = 1.5f});
   const Bsdf bsdf = bsdf_of(material);
   for (const glm::vec3 wo : outgoing()) {
     float cos_t = 0.0f;

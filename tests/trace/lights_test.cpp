@@ -1,4 +1,4 @@
-#include "renderer/trace/lights.h"
+#include "renderer/trace/light_sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "renderer/base/image.h"
-#include "renderer/trace/color_at.h"
 #include "renderer/trace/frame.h"
 #include "tests/trace/chi_square.h"
 #include "tests/trace/statistics.h"
@@ -106,12 +105,13 @@ std::vector<Case> cases() {
        slanted, -1.0f, 2.0 * sphere_angle},
       {"disk", [=](Scene& s) { add_light(s, disk(0.8f), 1.0f); }, glm::vec3(0.0f), up, 0.7f,
        sphere_angle * (1.0 - 1.0 / std::sqrt(1.0 + 0.64))},
-      {"environment", [=](Scene& s) { s.environment = glm::vec3(1.0f); }, glm::vec3(0.0f), up,
-       -1.0f, 2.0 * sphere_angle},
+      {"environment", [=](Scene& s) { s.environment = ConstantEnvironment{glm::vec3(1.0f)}; },
+       glm::vec3(0.0f), up, -1.0f, 2.0 * sphere_angle},
   };
 }
 
-LightSample sample_of(const Lights& lights, glm::vec3 from, std::uint32_t seed, std::uint32_t i) {
+LightSample sample_of(const LightSampler& lights, glm::vec3 from, std::uint32_t seed,
+                      std::uint32_t i) {
   Sampler sampler(seed, i, 0);  // another pixel each: independent samples
   const Sampler::Draws& d = sampler.next();
   return lights.sample(from, d[0], d[1]);
@@ -235,7 +235,7 @@ TEST(Lights, AreChosenByPower) {
             1.0f);
   add_light(scene, sphere({2.0f, 0.0f, 1.0f}, 0.5f), 3.0f);
   add_light(scene, disk(0.8f), 7.0f);
-  scene.environment = glm::vec3(0.2f);
+  scene.environment = ConstantEnvironment{glm::vec3(0.2f)};
   const TraceScene trace(std::move(scene));
   const glm::vec3 size = trace.accel().bounds_max() - trace.accel().bounds_min();
   const double radius2 = 0.25 * double(glm::dot(size, size));
@@ -326,9 +326,9 @@ TEST(Lights, EveryKindIsChosenHoweverDim) {
         add_light(s, sphere({0.0f, 0.0f, 3.0f}, 0.5f), l);
       },
       [](Scene& s, float l) { add_light(s, disk(0.8f), l); },
-      [](Scene& s, float l) { s.environment = glm::vec3(l); },
+      [](Scene& s, float l) { s.environment = ConstantEnvironment{glm::vec3(l)}; },
       [](Scene& s, float l) {
-        s.points.push_back({{0.1f, 0.2f, 0.5f}, glm::vec3(l)});
+        s.delta_lights.push_back(PointLight{{0.1f, 0.2f, 0.5f}, glm::vec3(l)});
       },
   };
   for (std::size_t dim = 0; dim < kinds.size(); ++dim) {

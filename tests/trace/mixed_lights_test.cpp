@@ -49,10 +49,9 @@ void add_panel(Scene& scene, glm::vec3 corner, float size, float radiance) {
   add_light(scene, parallelogram(corner, {size, 0, 0}, {0, 0, size}), radiance);
 }
 
-Material rough_metal() {
+Material rough_metal(float alpha = 0.1f) {
   Material material;
-  material.kind = MaterialKind::rough_conductor;
-  material.reflectance.value = glm::vec3(0.9f);
+  material.kind = RoughConductor{{.reflectance = {glm::vec3(0.9f)}}, alpha};
   material.two_sided = true;
   return material;
 }
@@ -69,18 +68,18 @@ std::vector<LitCase> lit_cases() {
       {"panel and environment",
        [=](Scene& s) {
          panel(s);
-         s.environment = glm::vec3(0.5f);
+         s.environment = ConstantEnvironment{glm::vec3(0.5f)};
        }},
       {"ball and environment",
        [](Scene& s) {
          add_light(s, ball({0.5f, 1.5f, 0.2f}, 0.7f), 4.0f);
-         s.environment = glm::vec3(0.6f);
+         s.environment = ConstantEnvironment{glm::vec3(0.6f)};
        }},
       {"triangles, disk and environment",
        [](Scene& s) {
          add_light(s, triangles_facing_down({-1.5f, 1.2f, -0.5f}), 4.0f);
          add_light(s, disk_facing_down({1, 1.4f, 0}, 0.6f), 5.0f);
-         s.environment = glm::vec3(0.3f);
+         s.environment = ConstantEnvironment{glm::vec3(0.3f)};
        }},
       {"several of each",
        [=](Scene& s) {
@@ -92,7 +91,7 @@ std::vector<LitCase> lit_cases() {
          add_light(s, triangles_facing_down({1.5f, 1.6f, 1}), 5.0f);
          add_light(s, disk_facing_down({0.3f, 1.1f, -2}, 0.6f), 4.0f);
          add_light(s, disk_facing_down({-1.2f, 1.3f, 1.5f}, 0.4f), 6.0f);
-         s.environment = glm::vec3(0.4f);
+         s.environment = ConstantEnvironment{glm::vec3(0.4f)};
        }},
   };
 }
@@ -259,10 +258,8 @@ double balanced(const PathLog& log, double environment_pdf) {
 // out where it only adds noise.
 TEST(PowerHeuristic, LeavesLessVarianceThanBalanceWould) {
   Scene scene;
-  Material metal = rough_metal();
-  metal.alpha = 0.15f;
-  add_shape(scene, parallelogram({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), metal);
-  scene.environment = glm::vec3(1.0f);
+  add_shape(scene, parallelogram({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), rough_metal(0.15f));
+  scene.environment = ConstantEnvironment{glm::vec3(1.0f)};
   const TraceScene trace(std::move(scene));
   const RenderSettings settings = one_point(IntegratorId::mis, 2);
   Moments power;

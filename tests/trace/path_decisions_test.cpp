@@ -70,7 +70,7 @@ TraceScene between_planes() {
   add_shape(scene, parallelogram({-far, -far, -1}, {2 * far, 0, 0}, {0, 2 * far, 0}),
             diffuse(0.9f));
   add_shape(scene, parallelogram({-far, -far, 1}, {0, 2 * far, 0}, {2 * far, 0, 0}), diffuse(0.9f));
-  scene.environment = glm::vec3(1.0f);
+  scene.environment = ConstantEnvironment{glm::vec3(1.0f)};
   scene.camera = pinhole({0, 0, 0}, {0.2f, 0.3f, -1.0f}, {0, 1, 0}, 40.0f);
   scene.camera.aperture_radius = 0.25f;
   scene.camera.focus_distance = 2.0f;

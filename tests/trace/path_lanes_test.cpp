@@ -112,28 +112,25 @@ TEST(PathLanes, AreSinglePathsInEveryBuiltinScene) {
 Scene zoo() {
   Scene scene;
   scene.textures.push_back(
-      {glm::vec3(0.9f, 0.2f, 0.1f), glm::vec3(0.1f, 0.3f, 0.8f), glm::mat3(5.0f)});
-  Material textured = diffuse(0.5f);
-  textured.reflectance.texture = 0;
+      Checkerboard{glm::vec3(0.9f, 0.2f, 0.1f), glm::vec3(0.1f, 0.3f, 0.8f), glm::mat3(5.0f)});
+  Material textured = textured_diffuse();
   textured.two_sided = true;
   add_shape(scene, parallelogram({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}), textured);
   add_shape(scene, parallelogram({-5, 0, -3}, {10, 0, 0}, {0, 6, 0}), diffuse(0.7f));
   // Seen from behind: one side only.
   add_shape(scene, parallelogram({1.5f, 0, 1}, {0, 1, 0}, {1, 0, 0}), diffuse(0.7f));
 
+  const Metal metal{.reflectance = {glm::vec3(0.9f)}};
   Material rough;
-  rough.kind = MaterialKind::rough_conductor;
-  rough.reflectance.value = glm::vec3(0.9f);
+  rough.kind = RoughConductor{metal};
   rough.two_sided = true;
-  Material mirror = rough;
-  mirror.kind = MaterialKind::conductor;
-  Material glass;
-  glass.kind = MaterialKind::dielectric;
-  glass.reflectance.value = glm::vec3(1.0f);
+  Material mirror;
+  mirror.kind = Conductor{metal};
+  mirror.two_sided = true;
   Sphere ball;
   ball.radius = 0.6f;
   float x = -2.0f;
-  for (const Material& material : {rough, mirror, glass, diffuse(0.6f)}) {
+  for (const Material& material : {rough, mirror, glass(1.5046f), diffuse(0.6f)}) {
     ball.center = {x, 0.6f, 0.0f};
     add_shape(scene, ball, material);
     x += 1.3f;
@@ -160,8 +157,8 @@ Scene zoo() {
   disk.normal = {0, -1, 0};
   disk.axis_v = {0, 0, 1};
   add_light(scene, disk, 15.0f);
-  scene.points.push_back({{0, 3, 3}, glm::vec3(6.0f, 5.0f, 4.0f)});
-  scene.environment = glm::vec3(0.1f, 0.2f, 0.3f);
+  scene.delta_lights.push_back(PointLight{{0, 3, 3}, glm::vec3(6.0f, 5.0f, 4.0f)});
+  scene.environment = ConstantEnvironment{glm::vec3(0.1f, 0.2f, 0.3f)};
   scene.camera = pinhole({0, 2.5f, 7}, {0, 1, 0}, {0, 1, 0}, 50.0f);
   return scene;
 }
@@ -188,10 +185,10 @@ TEST(PathLanes, AreSinglePathsUnderEachLightAlone) {
       shape.emits = shape.emits && light++ == only;
     }
     if (only != lights) {
-      scene.points.clear();
+      scene.delta_lights.clear();
     }
     if (only != lights + 1) {
-      scene.environment = glm::vec3(0.0f);
+      scene.environment = ConstantEnvironment{glm::vec3(0.0f)};
     }
     const TraceScene trace(std::move(scene));
     expect_single_paths(trace, default_settings(trace.scene()));

@@ -49,7 +49,7 @@ TEST(PointLight, IlluminatesWithCosineOverDistanceSquared) {
   const glm::vec3 intensity(3.0f, 2.0f, 1.0f);
   for (const glm::vec3 light : {glm::vec3(0, 2, 0), {1.5f, 0.7f, -2}, {-30, 4, 10}}) {
     Scene scene = floor_scene();
-    scene.points.push_back({light, intensity});
+    scene.delta_lights.push_back(PointLight{light, intensity});
     for (const int max_depth : {2, 3, std::numeric_limits<int>::max()}) {
       for (const glm::vec3& sample : samples_of(scene, settings_of(IntegratorId::mis, max_depth))) {
         for (int channel = 0; channel < 3; ++channel) {
@@ -73,7 +73,7 @@ TEST(PointLight, IsHiddenByWhatLiesBeforeItOnly) {
   const glm::vec3 light(1.0f, 3.0f, -1.0f);
   for (const float along : {0.5f, 0.999f, 1.001f, 1.5f}) {
     Scene scene = floor_scene();
-    scene.points.push_back({light, glm::vec3(1.0f)});
+    scene.delta_lights.push_back(PointLight{light, glm::vec3(1.0f)});
     add_shape(
         scene,
         parallelogram(along * light - glm::vec3(0.1f, 0.0f, 0.1f), {0.2f, 0, 0}, {0, 0, 0.2f}),
@@ -90,8 +90,8 @@ TEST(PointLight, SharesSamplesWithOtherLightsByPower) {
   const glm::vec3 near(0.5f, 1.0f, 0.0f);
   const glm::vec3 far(-4.0f, 6.0f, 2.0f);
   Scene scene = floor_scene();
-  scene.points.push_back({near, glm::vec3(1.0f)});
-  scene.points.push_back({far, glm::vec3(3.0f)});
+  scene.delta_lights.push_back(PointLight{near, glm::vec3(1.0f)});
+  scene.delta_lights.push_back(PointLight{far, glm::vec3(3.0f)});
   int of_near = 0;
   for (const glm::vec3& sample : samples_of(scene, settings_of(IntegratorId::mis, 2))) {
     const bool is_near = std::abs(double(sample.x) / (reflected(near) / 0.25) - 1.0) < 1e-3;

@@ -193,8 +193,7 @@ TEST(Surface, DiskUvIsRadiusAndAngle) {
     disk.radius = 2.0f;
     Scene scene;
     scene.textures.emplace_back();
-    add_shape(scene, disk, diffuse(0.5f));
-    scene.materials[0].reflectance.texture = 0;
+    add_shape(scene, disk, textured_diffuse());
     const TraceScene trace(std::move(scene));
     for (const auto& [u, v] : {std::pair{0.2f, 0.1f}, {0.5f, 0.4f}, {0.7f, 0.65f}, {0.9f, 0.9f}}) {
       const float angle = 2.0f * pi * v;
@@ -219,8 +218,7 @@ TEST(Surface, MeshInterpolatesUvAndNormals) {
   mesh.triangles = {{0, 1, 2}};
   Scene scene;
   scene.textures.emplace_back();
-  add_shape(scene, mesh, diffuse(0.5f));
-  scene.materials[0].reflectance.texture = 0;
+  add_shape(scene, mesh, textured_diffuse());
   const TraceScene trace(std::move(scene));
   const glm::vec3 p(1.0f, 2.0f, 0.0f);  // barycentrics 1/4, 1/4, 1/2
   for (const float side : {1.0f, -1.0f}) {

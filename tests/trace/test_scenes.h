@@ -35,7 +35,7 @@ inline int add_material(Scene& scene, Material material) {
 
 inline Material diffuse(float albedo) {
   Material material;
-  material.reflectance.value = glm::vec3(albedo);
+  material.kind = Diffuse{{glm::vec3(albedo)}};
   return material;
 }
 
@@ -46,6 +46,26 @@ Shape& add_shape(Scene& scene, Geometry geometry, Material material) {
   shape.material = add_material(scene, std::move(material));
   scene.shapes.push_back(std::move(shape));
   return scene.shapes.back();
+}
+
+/// The same, with the first texture of the scene.
+inline Material textured_diffuse() {
+  Material material;
+  material.kind = Diffuse{{.texture = 0}};
+  return material;
+}
+
+/// A metal that reflects everything.
+inline Material perfect_mirror() {
+  Material material;
+  material.kind = Conductor{};
+  return material;
+}
+
+inline Material glass(float ior) {
+  Material material;
+  material.kind = Dielectric{.ior = ior};
+  return material;
 }
 
 /// A black shape that emits the same radiance in all three channels.

@@ -219,7 +219,7 @@ TEST(Transport, EnvironmentAloneAndBesideALight) {
   for (const bool beside : {false, true}) {
     Scene scene;
     add_floor(scene, 0.6f);
-    scene.environment = glm::vec3(2.0f);
+    scene.environment = ConstantEnvironment{glm::vec3(2.0f)};
     const glm::vec3 corner(-1.0f, 1.0f, -1.0f);
     double truth = 0.6 * 2.0;
     if (beside) {
@@ -245,14 +245,6 @@ TEST(Transport, EnvironmentAloneAndBesideALight) {
   }
 }
 
-Material glass(float ior) {
-  Material material;
-  material.kind = MaterialKind::dielectric;
-  material.reflectance.value = glm::vec3(1.0f);
-  material.ior = ior;
-  return material;
-}
-
 /// What a path is worth that met only perfect glass and an environment of 1: as many divisions by
 /// the survival of Russian roulette as there were roulettes; or nothing, if one ended it.
 bool is_power_of_survival(float value) {
@@ -263,10 +255,10 @@ bool is_power_of_survival(float value) {
 TEST(Transport, PerfectGlassIsInvisibleInAConstantEnvironment) {
   Expectations expectations;
   Scene ball;
-  ball.environment = glm::vec3(1.0f);
+  ball.environment = ConstantEnvironment{glm::vec3(1.0f)};
   add_shape(ball, Sphere{}, glass(1.5f));
   Scene slab;
-  slab.environment = glm::vec3(1.0f);
+  slab.environment = ConstantEnvironment{glm::vec3(1.0f)};
   const float w = 50.0f;
   add_shape(slab, parallelogram({-w, -w, 1.0f}, {2 * w, 0, 0}, {0, 2 * w, 0}), glass(1.5f));
   add_shape(slab, parallelogram({-w, -w, 0.5f}, {0, 2 * w, 0}, {2 * w, 0, 0}), glass(1.5f));
@@ -292,7 +284,7 @@ TEST(Transport, PerfectGlassIsInvisibleInAConstantEnvironment) {
 
 TEST(Transport, RadianceInsideGlassGrowsWithTheSquareOfItsIndex) {
   Scene ball;
-  ball.environment = glm::vec3(1.0f);
+  ball.environment = ConstantEnvironment{glm::vec3(1.0f)};
   add_shape(ball, Sphere{}, glass(1.5f));
   const TraceScene trace(std::move(ball));
   Expectations expectations;
@@ -314,12 +306,9 @@ TEST(Transport, AFloorSeenThroughGlassKeepsItsBrightness) {
   add_light(scene, around, 0.5f);
   scene.materials.back() = diffuse(0.5f);
   add_shape(scene, Sphere{}, glass(1.5f));
-  Material metal;
-  metal.kind = MaterialKind::conductor;
-  metal.reflectance.value = glm::vec3(1.0f);
   Sphere mirror;
   mirror.center = {3.0f, 1.0f, 0.0f};
-  add_shape(scene, mirror, metal);
+  add_shape(scene, mirror, perfect_mirror());
   const TraceScene trace(std::move(scene));
   Expectations expectations;
   for (const Integrator& row : integrators()) {
@@ -337,11 +326,8 @@ TEST(Transport, DepthCountsTheSegmentsOfAPath) {
   // two, its light three.
   Scene scene;
   add_floor(scene, 0.6f);
-  Material metal;
-  metal.kind = MaterialKind::conductor;
-  metal.reflectance.value = glm::vec3(1.0f);
   add_shape(scene, parallelogram({-1.0f, 0.5f, -1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f}),
-            metal);
+            perfect_mirror());
   add_light(scene, parallelogram({-50, 80, -50}, {100, 0, 0}, {0, 0, 100}), 1.0f);
   const TraceScene trace(std::move(scene));
   const Camera camera = pinhole({0.0f, 3.0f, 1.0f}, {0.0f, 1.2f, -1.0f}, {0.0f, 1.0f, 0.0f}, 0.01f);

@@ -1,12 +1,14 @@
 #include "renderer/scene/mesh/mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <utility>
 
 #include "renderer/base/cancel.h"
+#include "renderer/scene/hasher.h"
 #include "renderer/scene/limits.h"
 
 namespace quartet {
@@ -25,52 +27,6 @@ glm::dvec3 area_normal(const Corners& p) {
 }
 
 }  // namespace
-
-Mesh make_rectangle(const glm::dmat4& to_world, bool flip_normals) {
-  Mesh mesh;
-  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  const bool mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
-  if (mirrored != flip_normals) {
-    // Exchanging the two edges turns the front around and keeps the order of a parallelogram.
-    std::swap(mesh.positions[1], mesh.positions[3]);
-    std::swap(mesh.uvs[1], mesh.uvs[3]);
-  }
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  mesh.parallelogram = true;
-  transform(mesh, to_world);
-  return mesh;
-}
-
-Mesh make_cube(const glm::dmat4& to_world, bool face_normals, bool flip_normals) {
-  // One row a face: the corner with uv (0, 0), the directions of u and of v; v × u points outward.
-  struct Face {
-    glm::vec3 corner, u, v;
-  };
-  constexpr std::array faces = {
-      Face{{-1, -1, -1}, {0, 0, 2}, {2, 0, 0}}, Face{{1, 1, 1}, {-2, 0, 0}, {0, 0, -2}},
-      Face{{1, -1, 1}, {0, 2, 0}, {0, 0, -2}},  Face{{-1, -1, 1}, {0, 2, 0}, {2, 0, 0}},
-      Face{{-1, -1, -1}, {0, 2, 0}, {0, 0, 2}}, Face{{-1, 1, -1}, {0, -2, 0}, {2, 0, 0}},
-  };
-  Mesh mesh;
-  for (const Face& face : faces) {
-    const unsigned first = unsigned(mesh.positions.size());
-    for (const glm::vec2 uv :
-         {glm::vec2(0, 0), glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(1, 0)}) {
-      mesh.positions.push_back(face.corner + uv.x * face.u + uv.y * face.v);
-      mesh.normals.push_back(glm::normalize(glm::cross(face.v, face.u)));
-      mesh.uvs.push_back(uv);
-    }
-    mesh.triangles.emplace_back(first, first + 1, first + 2);
-    mesh.triangles.emplace_back(first, first + 2, first + 3);
-  }
-  transform(mesh, to_world);
-  // As in Mitsuba, only the vertex normals know that a mirrored cube still faces outward.
-  if (!face_normals) orient_by_normals(mesh);
-  mesh.normals.clear();
-  if (flip_normals) flip(mesh);
-  return mesh;
-}
 
 void transform(Mesh& mesh, const glm::dmat4& to_world, const std::stop_token& stop) {
   CancelTick tick(stop);
@@ -156,23 +112,40 @@ std::size_t drop_degenerate_triangles(Mesh& mesh, const std::stop_token& stop) {
   });
 }
 
-double surface_area(const Shape& shape) {
-  struct Area {
-    double operator()(const Mesh& mesh) const {
-      double sum = 0.0;
-      for (const glm::uvec3& triangle : mesh.triangles) {
-        sum += 0.5 * glm::length(area_normal(corners(mesh, triangle)));
+Box Mesh::box() const {
+  if (triangles.empty()) {
+    return {};
+  }
+  const glm::vec3 first = positions[triangles.front().x];
+  Box box{first, first};
+  for (const glm::uvec3& triangle : triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const glm::vec3 corner = positions[triangle[i]];
+      if (!is_position(corner)) {
+        return {corner, corner};  // a minimum would lose what is not a number
       }
-      return sum;
+      box.low = glm::min(box.low, corner);
+      box.high = glm::max(box.high, corner);
     }
-    double operator()(const Sphere& sphere) const {
-      return 4.0 * glm::pi<double>() * double(sphere.radius) * double(sphere.radius);
-    }
-    double operator()(const Disk& disk) const {
-      return glm::pi<double>() * double(disk.radius) * double(disk.radius);
-    }
-  };
-  return std::visit(Area{}, shape.geometry);
+  }
+  return box;
+}
+
+double Mesh::area() const {
+  double sum = 0.0;
+  for (const glm::uvec3& triangle : triangles) {
+    sum += 0.5 * glm::length(area_normal(corners(*this, triangle)));
+  }
+  return sum;
+}
+
+std::string Mesh::text() const {
+  return fmt::format("{} of {} triangles", name, triangles.size());
+}
+
+void Mesh::add_to(Hasher& hasher) const {
+  const auto& [corner, normal, uv, triangle, is_parallelogram] = *this;
+  hasher.add_all(corner, normal, uv, triangle, is_parallelogram);
 }
 
 }  // namespace quartet

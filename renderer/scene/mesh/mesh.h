@@ -1,20 +1,40 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "renderer/scene/scene.h"
+#include "renderer/scene/shapes/box.h"
 
 namespace quartet {
 
+class Hasher;
+
+/// Triangles; normals and uvs are either empty or one a vertex. The geometric normal of a triangle
+/// follows the right-hand rule over its vertices and is the emitting, front side.
+struct Mesh {
+  static constexpr std::string_view name = "mesh";
+
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::vec2> uvs;
+  std::vector<glm::uvec3> triangles;
+  /// The mesh is exactly one parallelogram: triangles (0,1,2) and (0,2,3), corner 0 and edges to 1
+  /// and 3. Such a light is sampled as one piece rather than two.
+  bool parallelogram = false;
+
+  Box box() const;
+  double area() const;
+  std::size_t pieces() const { return triangles.size(); }
+  std::string text() const;
+  void add_to(Hasher& hasher) const;
+};
+
 // What takes long for a large mesh throws Cancelled soon after `stop` was asked for; the mesh is of
 // no use then.
-
-/// Mitsuba's rectangle: [-1, 1]² at z = 0 with normal +z and uv [0, 1]², placed by `to_world`.
-Mesh make_rectangle(const glm::dmat4& to_world, bool flip_normals);
-
-/// Mitsuba's cube: [-1, 1]³, each face with uv [0, 1]², placed by `to_world`.
-Mesh make_cube(const glm::dmat4& to_world, bool face_normals, bool flip_normals);
 
 /// Moves positions by `to_world` and normals by its inverse transpose.
 void transform(Mesh& mesh, const glm::dmat4& to_world, const std::stop_token& stop = {});
@@ -36,8 +56,5 @@ void make_barycentric_uvs(Mesh& mesh, const std::stop_token& stop = {});
 
 /// Removes triangles without area, or too small to have one in single precision; returns how many.
 std::size_t drop_degenerate_triangles(Mesh& mesh, const std::stop_token& stop = {});
-
-/// Total area of a shape.
-double surface_area(const Shape& shape);
 
 }  // namespace quartet

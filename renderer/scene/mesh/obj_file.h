@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/scene/scene.h"
+#include "renderer/scene/mesh/mesh.h"
 
 namespace quartet {
 

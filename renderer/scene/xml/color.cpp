@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <variant>
 
 #include "renderer/base/excerpt.h"
 #include "renderer/scene/limits.h"
@@ -144,12 +145,13 @@ Color read_color(SceneBuilder& builder, Element& element, std::string_view name,
     color.value =
         tag == "spectrum" ? read_spectrum(builder, node) : read_numbers(builder.xml, node);
   }
-  if (color.texture == Color::no_texture) {
+  if (!color.is_textured()) {
     check_range(builder, node, slot, color.value, range);
   } else {
-    const Checkerboard& board = builder.scene.textures[std::size_t(color.texture)];
-    check_range(builder, node, slot, board.color0, range);
-    check_range(builder, node, slot, board.color1, range);
+    const auto check_extremes = [&](const auto& kind) {
+      for (const glm::vec3& value : kind.extremes()) check_range(builder, node, slot, value, range);
+    };
+    std::visit(check_extremes, builder.scene.textures[std::size_t(color.texture)]);
   }
   return color;
 }
@@ -157,18 +159,10 @@ Color read_color(SceneBuilder& builder, Element& element, std::string_view name,
 glm::vec3 read_plain_color(SceneBuilder& builder, Element& element, std::string_view name,
                            const glm::vec3& fallback, ColorRange range) {
   const Color color = read_color(builder, element, name, fallback, range);
-  if (color.texture == Color::no_texture) return color.value;
+  if (!color.is_textured()) return color.value;
   element.warn(fmt::format("the texture on {} of {} becomes the mean of its colours", name,
                            element.title()));
-  const Checkerboard& board = builder.scene.textures[std::size_t(color.texture)];
-  return 0.5f * (board.color0 + board.color1);
-}
-
-float largest_value(const Scene& scene, const Color& color) {
-  const auto largest = [](const glm::vec3& value) { return std::max({value.x, value.y, value.z}); };
-  if (color.texture == Color::no_texture) return largest(color.value);
-  const Checkerboard& board = scene.textures[std::size_t(color.texture)];
-  return std::max(largest(board.color0), largest(board.color1));
+  return average_color(builder.scene.textures, color);
 }
 
 }  // namespace quartet

@@ -20,7 +20,4 @@ Color read_color(SceneBuilder& builder, Element& element, std::string_view name,
 glm::vec3 read_plain_color(SceneBuilder& builder, Element& element, std::string_view name,
                            const glm::vec3& fallback, ColorRange range);
 
-/// Largest of all that `color` can show, 0 for a colour that is black everywhere.
-float largest_value(const Scene& scene, const Color& color);
-
 }  // namespace quartet

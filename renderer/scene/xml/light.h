@@ -13,8 +13,9 @@ void read_shape_light(SceneBuilder& builder, pugi::xml_node node, Shape& shape);
 /// An <emitter> of the scene itself; the same holds.
 void read_scene_light(SceneBuilder& builder, pugi::xml_node node);
 
-/// Warns about each point light that is so dim beside the scene's other lights that few samples
-/// choose it: they are chosen by power, and no ray finds it by chance. Call it once all are read.
-void warn_of_dim_points(SceneBuilder& builder);
+/// Warns about each light without extent that is so dim beside the scene's other lights that few
+/// samples choose it: they are chosen by power, and no ray finds it by chance. Call it once all are
+/// read.
+void warn_of_dim_lights(SceneBuilder& builder);
 
 }  // namespace quartet

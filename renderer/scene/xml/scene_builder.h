@@ -47,14 +47,14 @@ struct SceneBuilder {
   std::stop_token stop;  ///< asks the loading to end
   XmlDocument xml;
   Scene scene;
-  std::map<pugi::xml_node, int> materials;  ///< elements already read, index into scene.materials
-  std::map<pugi::xml_node, int> textures;   ///< the same for scene.textures
-  std::vector<pugi::xml_node> points;       ///< where each of scene.points stands in the file
-  int default_material = -1;                ///< index into scene.materials, -1 until needed
-  std::set<pugi::xml_node> integrators;     ///< already read
-  std::size_t triangles = 0;                ///< of all meshes
-  std::size_t lights = 0;                   ///< a triangle that shines is one
-  std::vector<pugi::xml_node> open;         ///< elements being read, see OpenElement
+  std::map<pugi::xml_node, int> materials;   ///< elements already read, index into scene.materials
+  std::map<pugi::xml_node, int> textures;    ///< the same for scene.textures
+  std::vector<pugi::xml_node> delta_lights;  ///< where those of scene.delta_lights stand
+  int default_material = -1;                 ///< index into scene.materials, -1 until needed
+  std::set<pugi::xml_node> integrators;      ///< already read
+  std::size_t triangles = 0;                 ///< of all meshes
+  std::size_t lights = 0;                    ///< a triangle that shines is one
+  std::vector<pugi::xml_node> open;          ///< elements being read, see OpenElement
   std::set<std::string, std::less<>> warned;
 
  private:
