@@ -45,6 +45,14 @@ TEST(Playback, PausesWhereItStandsAndStepsFromThere) {
   EXPECT_FALSE(playback.playing());
 }
 
+TEST(Playback, BeginsAnewOnceTheEndWasShown) {
+  Playback playback;
+  playback.update(15, 0.0);
+  playback.pause();
+  playback.play();
+  EXPECT_EQ(playback.wanted(), 1u);
+}
+
 TEST(Playback, GoesOnBeyondWhatWasSeen) {
   Playback playback;
   playback.update(3, 0.0);

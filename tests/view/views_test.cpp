@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/scene/load_scene.h"
@@ -315,6 +316,8 @@ TEST(Views, RejectedSamplesShareAScale) {
   EXPECT_EQ(view.bar->scale, (ColorScale{0.0, 8.0, ColorMapId::viridis}));
   EXPECT_EQ(view.image.at(0, 0), sample(ColorMapId::viridis, 0.25f));
   EXPECT_EQ(view.image.at(1, 0), sample(ColorMapId::viridis, 0.125f));
+  std::swap(snapshot.lanes[0].rejected, snapshot.lanes[1].rejected);
+  EXPECT_EQ(draw_view(snapshot, 1, ViewKind::rejected, {}).bar->scale, view.bar->scale);
 }
 
 TEST(Views, DifferencesAreOfLuminance) {
