@@ -6,7 +6,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/math/wide.h"
 #include "renderer/scene/scene.h"
 
 struct RTCSceneTy;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/accel.h"
 #include "renderer/trace/sampler.h"

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "renderer/base/image.h"
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/scene/limits.h"
 #include "renderer/trace/lights/light_row.h"
 

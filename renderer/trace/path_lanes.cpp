@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/trace/path.h"
 #include "renderer/trace/sampler8.h"
 

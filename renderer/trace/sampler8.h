@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/base/wide.h"
+#include "renderer/base/math/wide.h"
 #include "renderer/trace/sampler.h"
 
 namespace quartet {

@@ -1,7 +1,7 @@
 #include "renderer/trace/surface.h"
 
 #include "renderer/base/cancel.h"
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 
 namespace quartet {
 namespace {

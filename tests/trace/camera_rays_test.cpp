@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "tests/trace/test_scenes.h"
 
 namespace quartet {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/trace/frame.h"
 #include "renderer/trace/sampler.h"
 #include "renderer/trace/trace_scene.h"

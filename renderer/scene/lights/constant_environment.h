@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/math/wide.h"
 
 namespace quartet {
 

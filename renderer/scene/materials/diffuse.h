@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/scene/materials/bsdf_sample.h"
 #include "renderer/scene/textures/texture.h"
 

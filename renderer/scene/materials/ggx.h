@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 
 namespace quartet {
 

@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "renderer/base/image.h"
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/trace/lights/light.h"
 
 namespace quartet {

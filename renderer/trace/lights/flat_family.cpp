@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/trace/lights/light.h"
 
 // Parallelograms, triangles and disks.

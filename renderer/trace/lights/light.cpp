@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "renderer/base/image.h"
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 
 namespace quartet {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/trace/lights/light.h"
 
 namespace quartet {

@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/math/wide.h"
 
 namespace quartet {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <variant>
 
-#include "renderer/base/warp.h"
+#include "renderer/base/math/warp.h"
 #include "renderer/trace/frame.h"
 #include "renderer/trace/lights/light.h"
 

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/math/wide.h"
 
 namespace quartet {
 
