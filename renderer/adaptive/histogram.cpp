@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/base/fast_log2.h"
+#include "renderer/base/math/fast_log2.h"
 
 namespace quartet {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "renderer/base/hash_mix.h"
+#include "renderer/base/math/hash_mix.h"
 #include "renderer/base/parallel.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/scene/synthetic.h"

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "renderer/base/hash_mix.h"
+#include "renderer/base/math/hash_mix.h"
 #include "renderer/scene/color.h"
 
 namespace quartet {
@@ -16,9 +16,7 @@ namespace quartet {
 /// one that is added does not compile until it was decided whether it belongs to what is rendered.
 class Hasher {
  public:
-  void add(std::uint64_t word) {
-    state_ = hash_mix((state_ ^ word) + golden_step);
-  }
+  void add(std::uint64_t word) { state_ = hash_mix((state_ ^ word) + golden_step); }
   void add(float value) { add(std::uint64_t(std::bit_cast<std::uint32_t>(value))); }
   void add(glm::vec2 v) { add_all(v.x, v.y); }
   void add(glm::vec3 v) { add_all(v.x, v.y, v.z); }

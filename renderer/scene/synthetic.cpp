@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "renderer/base/hash_mix.h"
+#include "renderer/base/math/hash_mix.h"
 #include "renderer/base/table.h"
 
 namespace quartet {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/base/fast_log2.h"
+#include "renderer/base/math/fast_log2.h"
 #include "renderer/base/table.h"
 
 namespace quartet {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "renderer/base/fast_log2.h"
+#include "renderer/base/math/fast_log2.h"
 
 namespace quartet {
 namespace {
