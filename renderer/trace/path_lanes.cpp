@@ -185,8 +185,10 @@ Vertices vertices_at(const TraceScene& scene, const Ray8& rays, const Hit8& hits
       bent[i] = -1;
       set_lane(vertices.surface.shading_normal, i, surface.shading_normal);
       vertices.diffuse[i] = -int(diffuse != nullptr);
-      vertices.specular[i] = -int(is_specular(bsdf));
-      bsdfs[i] = bsdf;
+      if (!diffuse) {
+        vertices.specular[i] = -int(is_specular(bsdf));
+        bsdfs[i] = bsdf;
+      }
     }
   });
   Columns columns(facets);
