@@ -6,7 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/records/json_text.h"
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 #include "renderer/adaptive/sample_mode.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/scene/load_scene.h"

@@ -11,7 +11,7 @@
 
 #include "app/options/number_option.h"
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/adaptive/policy_parameter.h"
+#include "renderer/adaptive/policies/policy_parameter.h"
 #include "renderer/measure/stop_conditions.h"
 
 namespace quartet {

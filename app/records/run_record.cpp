@@ -14,7 +14,7 @@
 #include "app/records/json_text.h"
 #include "app/records/vector_json.h"
 #include "renderer/adaptive/effort.h"
-#include "renderer/adaptive/policy_parameter.h"
+#include "renderer/adaptive/policies/policy_parameter.h"
 #include "renderer/base/version.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/store/sample_store.h"

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-#include "renderer/adaptive/film_feed.h"
+#include "renderer/adaptive/film/film_feed.h"
 #include "renderer/base/stopwatch.h"
 
 namespace quartet {

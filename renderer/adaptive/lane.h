@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/adaptive/film.h"
+#include "renderer/adaptive/film/film.h"
 #include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/pass_history.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 #include "renderer/trace/store/sample_store.h"
 
 namespace quartet {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "renderer/adaptive/estimators/estimator.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 #include "renderer/adaptive/sample_mode.h"
 
 namespace quartet {

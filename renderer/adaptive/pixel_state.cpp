@@ -6,7 +6,7 @@
 #include "renderer/adaptive/lane.h"
 #include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/lane_snapshot.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 
 namespace quartet {
 namespace {

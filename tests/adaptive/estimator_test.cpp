@@ -8,7 +8,7 @@
 #include <random>
 
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 #include "tests/adaptive/estimator_cases.h"
 #include "tests/adaptive/golden_windows.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/adaptive/policy_parameter.h"
+#include "renderer/adaptive/policies/policy_parameter.h"
 
 namespace quartet {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "renderer/adaptive/estimators/estimator.h"
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 
 namespace quartet {
 namespace {

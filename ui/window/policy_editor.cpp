@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "renderer/adaptive/policy_parameter.h"
+#include "renderer/adaptive/policies/policy_parameter.h"
 #include "ui/widgets/imgui_compat.h"
 #include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"

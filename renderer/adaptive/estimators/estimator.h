@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "renderer/adaptive/film.h"
+#include "renderer/adaptive/film/film.h"
 
 namespace quartet {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/adaptive/estimators/estimator.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 
 namespace quartet {
 

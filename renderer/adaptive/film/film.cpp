@@ -1,4 +1,4 @@
-#include "renderer/adaptive/film.h"
+#include "renderer/adaptive/film/film.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "renderer/adaptive/film_feed.h"
+#include "renderer/adaptive/film/film_feed.h"
 
 #include <algorithm>
 #include <vector>

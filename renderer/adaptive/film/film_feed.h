@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "renderer/adaptive/film.h"
+#include "renderer/adaptive/film/film.h"
 #include "renderer/trace/store/sample_store.h"
 
 namespace quartet {

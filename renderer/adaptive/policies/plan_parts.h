@@ -8,7 +8,7 @@
 
 #include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/pixel_state.h"
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 #include "renderer/base/parallel.h"
 
 namespace quartet {

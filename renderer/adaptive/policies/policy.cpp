@@ -1,4 +1,4 @@
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "renderer/adaptive/policy_parameter.h"
+#include "renderer/adaptive/policies/policy_parameter.h"
 
 #include <algorithm>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <variant>
 
-#include "renderer/adaptive/policy.h"
+#include "renderer/adaptive/policies/policy.h"
 
 namespace quartet {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "renderer/adaptive/policy.h"
-#include "renderer/adaptive/policy_parameter.h"
+#include "renderer/adaptive/policies/policy.h"
+#include "renderer/adaptive/policies/policy_parameter.h"
 
 namespace quartet {
 
