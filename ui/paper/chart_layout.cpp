@@ -163,7 +163,8 @@ class ChartBuilder {
   }
   static double legend_height(int entries, double column, double width) {
     const int columns = legend_columns(column, width);
-    return (entries + columns - 1) / columns * legend_line;
+    const int rows = (entries + columns - 1) / columns;
+    return rows * legend_line;
   }
 
   void put_legend(const LegendEntries& entries, const Rect& box, double column) {
@@ -171,8 +172,9 @@ class ChartBuilder {
     const double lead = sample_width + 0.6 * line_size;
     const double room = std::min(column, box.width) - lead;
     for (std::size_t i = 0; i < entries.size(); ++i) {
+      const int row = int(i) / columns;
       const double x = box.x + double(int(i) % columns) * column;
-      const double y = box.y + double(int(i) / columns) * legend_line;
+      const double y = box.y + double(row) * legend_line;
       layout_.legend.push_back(
           {entries[i].second, {x, y, sample_width, chart_line_height * line_size}});
       const auto text = measure_.wrap(entries[i].first, line_style(), room, 1);
