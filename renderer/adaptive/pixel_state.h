@@ -49,8 +49,8 @@ struct PixelCriterion {
   std::span<const std::uint32_t> taken;
 };
 
-/// Sets marks[i] to 1 if pixel first + i is not done, to 0 if it is. Without errors none is. NaN,
-/// which no estimator writes, is not above a threshold.
+/// Sets marks[i] to 1 if pixel first + i is not done, to 0 if it is. Without errors no pixel is
+/// done. NaN, which no estimator writes, is not above a threshold.
 void mark_not_done(const PixelCriterion& criterion, std::size_t first,
                    std::span<std::uint8_t> marks);
 

@@ -5,7 +5,7 @@
 
 namespace quartet {
 
-/// What the samples that decide are used for beside.
+/// What else the samples that decide are used for.
 enum class SampleMode {
   /// They are the picture. Cheap, and biased: Kirk and Arvo, "Unbiased Sampling Techniques for
   /// Image Synthesis", SIGGRAPH 1991.
@@ -15,7 +15,7 @@ enum class SampleMode {
   unbiased,
 };
 
-/// One row of the table of what the samples that decide are used for.
+/// One row of the table of sample modes.
 struct SampleModeRow {
   SampleMode key;
   std::string_view id;

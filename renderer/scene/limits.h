@@ -7,10 +7,10 @@
 
 namespace quartet {
 
-/// The ranges within which a picture comes out right. Beyond them single precision loses what is
-/// asked for: products of four lengths leave the range of float, two corners fall on one point, or
-/// a ray is no ray to Embree. Each function says in words what is out of range and by how much, to
-/// stand behind a place ("file:line: "); nothing if all is well.
+// The ranges within which a picture comes out right. Beyond them single precision loses what is
+// asked for: products of four lengths leave the range of float, two corners fall on one point, or
+// a ray is no ray to Embree. Each function says in words what is out of range and by how much, to
+// stand behind a place ("file:line: "); nothing if all is well.
 
 inline constexpr double largest_coordinate = 1e9;
 /// Of a shape, from end to end.

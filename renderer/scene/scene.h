@@ -14,9 +14,9 @@
 
 namespace quartet {
 
-/// A scene as data: what the file says, with every transform applied. World units are those of the
-/// file; colours are linear RGB with Rec. 709 primaries; radiance is in W / (m² sr) or any unit
-/// proportional to it.
+// A scene as data: what the file says, with every transform applied. World units are those of the
+// file; colours are linear RGB with Rec. 709 primaries; radiance is in W / (m² sr) or any unit
+// proportional to it.
 
 /// Which side of the picture `Camera::fov` spans.
 enum class FovAxis { x, y, diagonal, smaller, larger };

@@ -15,7 +15,7 @@
 
 namespace quartet {
 
-/// The four criteria of the 2021 report, in its order.
+/// The four estimators of the 2021 report, in its order.
 inline constexpr std::array report_criteria{EstimatorId::contrast, EstimatorId::kl,
                                             EstimatorId::chi2, EstimatorId::hellinger};
 inline constexpr std::size_t report_criterion_count = report_criteria.size();

@@ -20,7 +20,7 @@ BsdfValue evaluate(const Bsdf& bsdf, glm::vec3 wo, glm::vec3 wi) {
           return {};
         } else {
           static_assert(!Kind::transmits,
-                        "which sides such a kind is evaluated on, is to say here");
+                        "say here on which sides a rough material that transmits is evaluated");
           if (wo.z * wi.z <= 0.0f || (wo.z < 0.0f && !bsdf.two_sided)) {
             return {};
           }

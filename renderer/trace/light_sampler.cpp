@@ -187,6 +187,7 @@ float LightSampler::pdf(const Surface& surface, glm::vec3 from, glm::vec3 direct
     return 0.0f;
   }
   const Light* light = &lights_[std::size_t(first)];
+  // Lights of a shape of several pieces lie in the order of its pieces; only meshes have them.
   if (light->domain == LightDomain::triangle) {
     light += surface.primitive;
   }

@@ -45,7 +45,7 @@ struct Estimator {
   std::string_view unit;              ///< of the error and its thresholds
   std::string_view source;            ///< of the formula
   std::string_view threshold_source;  ///< of the default thresholds
-  /// Errors a pixel: 3 (R, G, B), 1, or 0 for a method that never asks for more.
+  /// Errors a pixel: 3 (R, G, B), 1, or 0 for a method without an error, which samples evenly.
   int channels;
   Thresholds default_thresholds;
   /// Writes the raw error of every pixel, channel by channel (channels × film.size()): finite and

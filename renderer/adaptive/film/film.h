@@ -40,7 +40,7 @@ struct FilmStatistics {
   bool operator==(const FilmStatistics&) const = default;
 };
 
-/// What either asks for. Only one of the two may want a half.
+/// What either asks for. Where both want a half, it must be the same.
 FilmStatistics operator|(const FilmStatistics& a, const FilmStatistics& b);
 
 /// The statistics of the samples that each pixel has taken. What the estimators read is planar,

@@ -8,8 +8,8 @@
 
 namespace quartet {
 
-/// How a pass's samples come out of a store into a film: where the store has means and the film
-/// wants nothing else, they are looked up, else samples are added, with the same result to the bit.
+// How a pass's samples come out of a store into a film: where the store has means and the film
+// wants nothing else, they are looked up, else samples are added, with the same result to the bit.
 
 /// The samples of a pass, which must be in the store.
 struct PassSamples {

@@ -4,9 +4,10 @@
 
 namespace quartet {
 
-/// As what diffuse, conductor, roughconductor and dielectric are hashed: all numbers of the four,
-/// the defaults where a kind lacks one. Scenes are known by the hashes that this gives, and so are
-/// the references made of them; a kind that comes later hashes its own fields alone.
+/// How the first four kinds (diffuse, conductor, roughconductor, dielectric) are hashed: all
+/// numbers of the four, the default where a kind lacks one. Scenes are known by the hashes that
+/// this gives, and so are the references made of them; a kind that comes later hashes its own
+/// fields alone.
 struct HashedRow {
   Color reflectance;
   Color transmittance{glm::vec3(1.0f)};

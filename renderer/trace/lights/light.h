@@ -13,7 +13,7 @@ namespace quartet {
 
 struct Light;
 
-/// How lights of a family are sampled. Each is what its file ends in.
+/// How lights of a family are sampled; each family has a file, whose add_lights() hands it out.
 struct LightFamily {
   /// Towards the light from a point; (u, v) in [0, 1)² chooses the direction. The density holds the
   /// light's probability.
