@@ -10,6 +10,7 @@
 #include "app/options/reference_option.h"
 #include "app/options/run_options.h"
 #include "app/options/stop_options.h"
+#include "app/options/view_options.h"
 #include "app/records/lab_files.h"
 #include "app/records/rejected_report.h"
 #include "app/records/stop_report.h"

@@ -14,6 +14,7 @@
 #include "app/options/reference_option.h"
 #include "app/options/stop_options.h"
 #include "app/options/usage_error.h"
+#include "app/options/view_options.h"
 #include "app/records/rejected_report.h"
 #include "app/records/stop_report.h"
 #include "app/terminal/interrupt.h"

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/options/lane_settings_options.h"
-#include "renderer/view/views.h"
 
 namespace quartet {
 
@@ -28,17 +26,5 @@ std::vector<LaneSettings> settings_of_lanes(const LaneOptions& options,
 std::string lane_text(const LaneSettings& settings);
 /// `options` hold where the word says nothing. Throws UsageError.
 LaneSettings parse_lane(const std::string& text, const LaneSettingsOptions& options);
-
-/// How pictures are shown, as options; what is not given is as ViewSettings has it.
-struct ViewOptions {
-  std::string heat;
-  std::string tone_map;
-  std::optional<float> exposure;
-};
-
-void add_view_options(CLI::App& command, ViewOptions& options);
-/// Throws UsageError, or std::invalid_argument for an unknown tone map.
-ViewSettings view_settings(const ViewOptions& options);
-std::string heat_id(HeatRange range);
 
 }  // namespace quartet

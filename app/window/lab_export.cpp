@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/options/lane_option.h"
+#include "app/options/view_options.h"
 #include "app/records/lab_files.h"
 #include "app/terminal/home_folder.h"
 #include "app/terminal/shell_words.h"

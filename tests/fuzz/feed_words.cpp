@@ -8,6 +8,7 @@
 #include "app/options/lane_option.h"
 #include "app/options/run_options.h"
 #include "app/options/stop_options.h"
+#include "app/options/view_options.h"
 #include "tests/fuzz/feed.h"
 
 namespace quartet {

@@ -7,6 +7,7 @@
 #include "renderer/view/lane_charts.h"
 #include "ui/widgets/chart_painter.h"
 #include "ui/window/lane_header.h"
+#include "ui/window/pictures/color_key.h"
 #include "ui/window/pictures/picture_slot.h"
 
 namespace quartet {

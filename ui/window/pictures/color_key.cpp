@@ -1,3 +1,5 @@
+#include "ui/window/pictures/color_key.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "ui/widgets/imgui_compat.h"
 #include "ui/widgets/widgets.h"
 #include "ui/window/pictures/picture_cache.h"
-#include "ui/window/pictures/picture_slot.h"
 
 namespace quartet {
 namespace {

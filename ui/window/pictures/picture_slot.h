@@ -26,10 +26,4 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot);
 /// A and B of the comparison in one slot, with a line between them that can be dragged.
 void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b);
 
-/// The key to a picture's colours, below it.
-void draw_color_key(LabFrame& frame, const PictureSlot& slot, const ScreenRect& box);
-
-/// Height that a key needs; 0 for a view without colours to explain.
-float color_key_height(const Ui& ui, ViewKind kind);
-
 }  // namespace quartet
