@@ -25,6 +25,7 @@ enum class EstimatorId {
 };
 
 enum class PolicyId;  // policy.h
+struct WindowKernel;  // window_kernel.h
 
 /// One threshold a channel of the estimator; the rest is not looked at.
 using Thresholds = std::array<float, 3>;
@@ -52,6 +53,8 @@ struct Estimator {
   /// not negative, or infinite where a pixel has too few samples to be judged, which is above every
   /// threshold. Null where channels is 0. Runs on the threads of the current TBB arena.
   void (*estimate)(const EstimatorInput& input, std::span<float> error);
+  /// The same, row by row, of an estimator that looks at nothing but means in 3 × 3 windows.
+  const WindowKernel* window = nullptr;
   /// The policy that its authors pair it with.
   PolicyId default_policy;
   FilmStatistics needs = {};

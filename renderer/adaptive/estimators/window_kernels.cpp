@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "renderer/adaptive/estimators/estimator_rows.h"
+#include "renderer/adaptive/estimators/window_kernel.h"
 #include "renderer/base/parallel.h"
 
 namespace quartet {
@@ -29,50 +29,40 @@ constexpr std::size_t grain_rows = 16;
 
 /// Lowest and highest of each value and its left and right neighbours.
 void row_extremes(const float* row, int width, float* low, float* high) {
-  std::copy_n(row, width, low);
-  std::copy_n(row, width, high);
+  const auto write = [=](int x, int left, int right) {
+    low[x] = std::min(std::min(row[left], row[x]), row[right]);
+    high[x] = std::max(std::max(row[left], row[x]), row[right]);
+  };
+  write(0, 0, std::min(1, width - 1));
 #pragma omp simd
-  for (int x = 1; x < width; ++x) {
-    low[x] = std::min(low[x], row[x - 1]);
-    high[x] = std::max(high[x], row[x - 1]);
+  for (int x = 1; x < width - 1; ++x) {
+    low[x] = std::min(std::min(row[x - 1], row[x]), row[x + 1]);
+    high[x] = std::max(std::max(row[x - 1], row[x]), row[x + 1]);
   }
-#pragma omp simd
-  for (int x = 0; x < width - 1; ++x) {
-    low[x] = std::min(low[x], row[x + 1]);
-    high[x] = std::max(high[x], row[x + 1]);
+  write(width - 1, std::max(width - 2, 0), width - 1);
+}
+
+/// Of each channel: the lowest and then the highest.
+void reduce_to_extremes(const MeanRow& means, int width, float* reduced) {
+  for (const float* channel : means) {
+    row_extremes(channel, width, reduced, reduced + width);
+    reduced += 2 * width;
   }
 }
 
-/// Rows [begin, end) of one channel.
-void contrast_rows(std::span<const float> values, int width, int height, int begin, int end,
-                   float* error) {
-  // Extremes along the row of the last three rows, so that each row is read once.
-  std::vector<float> buffer(std::size_t(width) * 6);
-  float* low[3];
-  float* high[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = buffer.data() + 2 * i * std::size_t(width);
-    high[i] = low[i] + width;
-  }
-  const auto load = [&](int y) {
-    row_extremes(values.data() + std::size_t(y) * std::size_t(width), width, low[y % 3],
-                 high[y % 3]);
-  };
-  load(std::max(begin - 1, 0));
-  load(begin);
-  for (int y = begin; y < end; ++y) {
-    if (y + 1 < height) {
-      load(y + 1);
-    }
-    const int above = std::max(y - 1, 0) % 3;
-    const int below = std::min(y + 1, height - 1) % 3;
-    const float* low_above = low[above];
-    const float* low_here = low[y % 3];
-    const float* low_below = low[below];
-    const float* high_above = high[above];
-    const float* high_here = high[y % 3];
-    const float* high_below = high[below];
-    float* out = error + std::size_t(y) * std::size_t(width);
+void contrast_errors(const WindowRows& rows, int width, const ErrorRow& error) {
+  for (std::size_t c = 0; c < error.size(); ++c) {
+    const std::size_t low = 2 * c * std::size_t(width);
+    const std::size_t high = low + std::size_t(width);
+    const float* above = rows.above ? rows.above : rows.here;
+    const float* below = rows.below ? rows.below : rows.here;
+    const float* low_above = above + low;
+    const float* low_here = rows.here + low;
+    const float* low_below = below + low;
+    const float* high_above = above + high;
+    const float* high_here = rows.here + high;
+    const float* high_below = below + high;
+    float* out = error[c];
 #pragma omp simd
     for (int x = 0; x < width; ++x) {
       const float l = std::min(std::min(low_above[x], low_here[x]), low_below[x]);
@@ -84,35 +74,27 @@ void contrast_rows(std::span<const float> values, int width, int height, int beg
   }
 }
 
-/// Rec. 709 luminances of one row, and what the criterion wants to know of each beforehand.
-struct LuminanceRow {
-  std::vector<float> luminance, root;
-
-  void load(const Film& film, int y, bool with_root) {
-    const auto width = std::size_t(film.width());
-    const float* r = film.mean(0).data() + std::size_t(y) * width;
-    const float* g = film.mean(1).data() + std::size_t(y) * width;
-    const float* b = film.mean(2).data() + std::size_t(y) * width;
-    luminance.resize(width);
-    float* out = luminance.data();
+/// Rec. 709 luminances.
+void reduce_to_luminance(const MeanRow& means, int width, float* reduced) {
+  const auto [r, g, b] = means;
 #pragma omp simd
-    for (std::size_t x = 0; x < width; ++x) {
-      out[x] = std::min(brightest, quartet::luminance(r[x], g[x], b[x]));
-    }
-    if (with_root) {
-      root.resize(width);
-      float* root_out = root.data();
-#pragma omp simd
-      for (std::size_t x = 0; x < width; ++x) {
-        root_out[x] = std::sqrt(out[x]);
-      }
-    }
+  for (int x = 0; x < width; ++x) {
+    reduced[x] = std::min(brightest, quartet::luminance(r[x], g[x], b[x]));
   }
-};
+}
 
-/// The rows of a window, 1 to 3, and the one with its centre.
+/// And then their roots.
+void reduce_to_roots(const MeanRow& means, int width, float* reduced) {
+  reduce_to_luminance(means, width, reduced);
+#pragma omp simd
+  for (int x = 0; x < width; ++x) {
+    reduced[width + x] = std::sqrt(reduced[x]);
+  }
+}
+
+/// The rows of luminances of a window, 1 to 3, and the one with its centre.
 template <int Rows>
-struct WindowRows {
+struct LuminanceRows {
   const float* luminance[Rows];
   const float* root[Rows];
   const float* centre;
@@ -179,7 +161,7 @@ struct KullbackLeibler {
 
 /// (1/n) · L̄ · √D of the window around pixel x over the columns x + First … x + Last.
 template <class Divergence, int Rows, int First, int Last>
-inline float window_error(const WindowRows<Rows>& rows, int x) {
+inline float window_error(const LuminanceRows<Rows>& rows, int x) {
   constexpr int columns = Last - First + 1;
   constexpr float inverse_n = 1.0f / float(Rows * columns);
   // Written out by the compiler for each neighbour: it gives up on vectors where loops remain.
@@ -206,7 +188,7 @@ inline float window_error(const WindowRows<Rows>& rows, int x) {
 }
 
 template <class Divergence, int Rows>
-void row_errors(const WindowRows<Rows>& rows, int width, float* error) {
+void row_errors(const LuminanceRows<Rows>& rows, int width, float* error) {
   if (width == 1) {
     error[0] = window_error<Divergence, Rows, 0, 0>(rows, 0);
     return;
@@ -219,79 +201,75 @@ void row_errors(const WindowRows<Rows>& rows, int width, float* error) {
   error[width - 1] = window_error<Divergence, Rows, -1, 0>(rows, width - 1);
 }
 
-/// `first` is the first row of the window, `centre` that of its centre; row y is in ring[y % 3].
+/// `first` is the topmost row of the window.
 template <class Divergence, int Rows>
-void row_errors(const std::array<LuminanceRow, 3>& ring, int first, int centre, int width,
-                float* error) {
-  WindowRows<Rows> rows;
-  for (int i = 0; i < Rows; ++i) {
-    rows.luminance[i] = ring[std::size_t(first + i) % 3].luminance.data();
-    rows.root[i] = ring[std::size_t(first + i) % 3].root.data();
+void row_errors(const std::array<const float*, 3>& reduced, std::size_t first, const float* centre,
+                int width, float* error) {
+  LuminanceRows<Rows> rows;
+  for (std::size_t i = 0; i < Rows; ++i) {
+    rows.luminance[i] = reduced[first + i];
+    rows.root[i] = Divergence::with_root ? reduced[first + i] + width : nullptr;
   }
-  rows.centre = ring[std::size_t(centre) % 3].luminance.data();
+  rows.centre = centre;
   row_errors<Divergence>(rows, width, error);
 }
 
-/// Rows [begin, end).
 template <class Divergence>
-void divergence_rows(const Film& film, int begin, int end, std::span<float> error) {
-  const int width = film.width();
-  const int height = film.height();
-  std::array<LuminanceRow, 3> ring;
-  const auto load = [&](int y) { ring[std::size_t(y) % 3].load(film, y, Divergence::with_root); };
-  load(std::max(begin - 1, 0));
-  load(begin);
-  for (int y = begin; y < end; ++y) {
-    if (y + 1 < height) {
-      load(y + 1);
-    }
-    const int first = std::max(y - 1, 0);
-    float* out = error.data() + std::size_t(y) * std::size_t(width);
-    switch (std::min(y + 1, height - 1) - first + 1) {
-      case 3:
-        row_errors<Divergence, 3>(ring, first, y, width, out);
-        break;
-      case 2:
-        row_errors<Divergence, 2>(ring, first, y, width, out);
-        break;
-      default:
-        row_errors<Divergence, 1>(ring, first, y, width, out);
-    }
+void divergence_errors(const WindowRows& rows, int width, const ErrorRow& error) {
+  const std::array reduced{rows.above, rows.here, rows.below};
+  if (rows.above && rows.below) {
+    row_errors<Divergence, 3>(reduced, 0, rows.here, width, error[0]);
+  } else if (rows.above) {
+    row_errors<Divergence, 2>(reduced, 0, rows.here, width, error[0]);
+  } else if (rows.below) {
+    row_errors<Divergence, 2>(reduced, 1, rows.here, width, error[0]);
+  } else {
+    row_errors<Divergence, 1>(reduced, 1, rows.here, width, error[0]);
   }
 }
 
-template <class Divergence>
-void divergence_plane(const Film& film, std::span<float> error) {
-  assert(error.size() == film.size());
-  parallel_for(std::size_t(film.height()), grain_rows, [&](std::size_t begin, std::size_t end) {
-    divergence_rows<Divergence>(film, int(begin), int(end), error);
-  });
-}
+constexpr WindowKernel contrast_kernel{6, reduce_to_extremes, contrast_errors};
+constexpr WindowKernel kl_kernel{1, reduce_to_luminance, divergence_errors<KullbackLeibler>};
+constexpr WindowKernel chi2_kernel{1, reduce_to_luminance, divergence_errors<Chi2>};
+constexpr WindowKernel hellinger_kernel{2, reduce_to_roots, divergence_errors<Hellinger>};
 
-/// `error` is three planes: R, G, B.
-void estimate_contrast(const EstimatorInput& input, std::span<float> error) {
-  const Film& film = input.film;
-  assert(error.size() == 3 * film.size());
-  parallel_for(std::size_t(film.height()), grain_rows, [&](std::size_t begin, std::size_t end) {
-    for (int c = 0; c < 3; ++c) {
-      contrast_rows(film.mean(c), film.width(), film.height(), int(begin), int(end),
-                    error.data() + std::size_t(c) * film.size());
+/// Rows [begin, end) of a picture.
+void film_errors(const WindowKernel& kernel, const Film& film, int begin, int end,
+                 std::span<float> error) {
+  const int width = film.width();
+  // The last three rows, so that each is reduced once.
+  const std::size_t row_floats = std::size_t(kernel.values) * std::size_t(width);
+  std::vector<float> ring(3 * row_floats);
+  const auto reduced = [&](int y) -> float* {
+    return y < 0 || y >= film.height() ? nullptr : ring.data() + std::size_t(y % 3) * row_floats;
+  };
+  const auto first = [&](int y) { return std::size_t(y) * std::size_t(width); };
+  const auto load = [&](int y) {
+    kernel.reduce({film.mean(0).data() + first(y), film.mean(1).data() + first(y),
+                   film.mean(2).data() + first(y)},
+                  width, reduced(y));
+  };
+  load(std::max(begin - 1, 0));
+  load(begin);
+  for (int y = begin; y < end; ++y) {
+    if (y + 1 < film.height()) {
+      load(y + 1);
     }
-  });
+    ErrorRow out{};
+    for (std::size_t c = 0; c * film.size() < error.size(); ++c) {
+      out[c] = error.data() + c * film.size() + first(y);
+    }
+    kernel.errors({reduced(y - 1), reduced(y), reduced(y + 1)}, width, out);
+  }
 }
 
-// `error` is one plane each.
-
-void estimate_kl(const EstimatorInput& input, std::span<float> error) {
-  divergence_plane<KullbackLeibler>(input.film, error);
-}
-
-void estimate_chi2(const EstimatorInput& input, std::span<float> error) {
-  divergence_plane<Chi2>(input.film, error);
-}
-
-void estimate_hellinger(const EstimatorInput& input, std::span<float> error) {
-  divergence_plane<Hellinger>(input.film, error);
+/// The estimate of a kernel, over a whole film.
+template <const WindowKernel& kernel>
+void estimate_windows(const EstimatorInput& input, std::span<float> error) {
+  parallel_for(std::size_t(input.film.height()), grain_rows,
+               [&](std::size_t begin, std::size_t end) {
+                 film_errors(kernel, input.film, int(begin), int(end), error);
+               });
 }
 
 constexpr std::string_view tuned_by_eye = "tuned by eye against contrast in the 2021 report";
@@ -307,7 +285,8 @@ constexpr Estimator contrast_estimator{
     .threshold_source = "Mitchell 1987",
     .channels = 3,
     .default_thresholds = {0.4f, 0.3f, 0.6f},
-    .estimate = estimate_contrast,
+    .estimate = estimate_windows<contrast_kernel>,
+    .window = &contrast_kernel,
     .default_policy = PolicyId::vote};
 
 constexpr Estimator kl_estimator{.key = EstimatorId::kl,
@@ -318,7 +297,8 @@ constexpr Estimator kl_estimator{.key = EstimatorId::kl,
                                  .threshold_source = tuned_by_eye,
                                  .channels = 1,
                                  .default_thresholds = {0.005f, 0.0f, 0.0f},
-                                 .estimate = estimate_kl,
+                                 .estimate = estimate_windows<kl_kernel>,
+                                 .window = &kl_kernel,
                                  .default_policy = PolicyId::vote};
 
 constexpr Estimator chi2_estimator{.key = EstimatorId::chi2,
@@ -329,7 +309,8 @@ constexpr Estimator chi2_estimator{.key = EstimatorId::chi2,
                                    .threshold_source = tuned_by_eye,
                                    .channels = 1,
                                    .default_thresholds = {0.007f, 0.0f, 0.0f},
-                                   .estimate = estimate_chi2,
+                                   .estimate = estimate_windows<chi2_kernel>,
+                                   .window = &chi2_kernel,
                                    .default_policy = PolicyId::vote};
 
 constexpr Estimator hellinger_estimator{.key = EstimatorId::hellinger,
@@ -340,7 +321,8 @@ constexpr Estimator hellinger_estimator{.key = EstimatorId::hellinger,
                                         .threshold_source = tuned_by_eye,
                                         .channels = 1,
                                         .default_thresholds = {0.003f, 0.0f, 0.0f},
-                                        .estimate = estimate_hellinger,
+                                        .estimate = estimate_windows<hellinger_kernel>,
+                                        .window = &hellinger_kernel,
                                         .default_policy = PolicyId::vote};
 
 }  // namespace quartet
