@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "renderer/adaptive/lane_settings.h"
-#include "renderer/adaptive/policies/plan_parts.h"
+#include "renderer/adaptive/policies/mark_rows.h"
 #include "renderer/adaptive/policies/policy_rows.h"
 #include "renderer/base/parallel.h"
 #include "renderer/base/table.h"
@@ -12,8 +12,8 @@
 namespace quartet {
 namespace {
 
-// A part's samples are counted in 32 bits.
-constexpr std::size_t part_pixels = 1 << 14;
+/// Rows handed to one thread at a time; a smaller piece costs more to hand out than it gains.
+constexpr std::size_t plan_grain_rows = 32;
 
 const PolicyRow* row_of_policy(PolicyId key) {
   switch (key) {
@@ -27,6 +27,35 @@ const PolicyRow* row_of_policy(PolicyId key) {
       return &converge_policy;
   }
   return nullptr;
+}
+
+/// Leaves of what a row wants what its pixels may still take; returns the sum, which is less than
+/// 2³² because a row has at most 65536 pixels.
+std::uint32_t keep_below_maximum(std::uint32_t maximum, const std::uint32_t* taken,
+                                 std::span<std::uint16_t> row) {
+  std::uint16_t* const wanted = row.data();
+  const std::size_t width = row.size();
+  std::uint32_t sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (std::size_t x = 0; x < width; ++x) {
+    const std::uint32_t room = std::max(maximum, taken[x]) - taken[x];
+    const std::uint32_t samples = std::min<std::uint32_t>(wanted[x], room);
+    wanted[x] = std::uint16_t(samples);
+    sum += samples;
+  }
+  return sum;
+}
+
+/// As many samples of every pixel.
+void plan_everywhere(const LaneSettings& settings, const PlanInput& input, std::uint16_t samples,
+                     Plan& plan) {
+  const auto width = std::size_t(input.width);
+  std::fill(plan.wanted.begin(), plan.wanted.end(), samples);
+  plan.not_done = plan.wanted.size();
+  for (std::size_t first = 0; first < plan.wanted.size(); first += width) {
+    plan.total += keep_below_maximum(settings.max_spp, input.taken.data() + first,
+                                     std::span(plan.wanted).subspan(first, width));
+  }
 }
 
 }  // namespace
@@ -44,36 +73,51 @@ const PolicyRow& find_policy(std::string_view id) {
   return find_row(policies(), id, "policy");
 }
 
+std::uint64_t plan_row(const LaneSettings& settings, const PlanRow& row,
+                       std::span<std::uint16_t> wanted) {
+  policy(settings.policy.kind).plan(settings, row, wanted.data());
+  return keep_below_maximum(settings.max_spp, row.taken.data(), wanted);
+}
+
 void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
-  const std::size_t pixels = input.taken.size();
-  plan.wanted.resize(pixels);
+  plan.wanted.resize(input.taken.size());
   plan.total = 0;
-  plan.not_done = pixels;
   if (estimator(settings.estimator).channels == 0) {
-    plan_everywhere(plan, 1);  // without an error there is nothing to choose by
-  } else {
-    policy(settings.policy.kind).plan(settings, input, plan);
+    plan_everywhere(settings, input, 1, plan);  // without an error there is nothing to choose by
+    return;
   }
+  if (input.pass == 0) {
+    plan_everywhere(settings, input, policy(settings.policy.kind).first(settings.policy), plan);
+    return;
+  }
+  const auto width = std::size_t(input.width);
+  const PixelCriterion criterion(settings, input.error, input.taken);
   std::atomic<std::uint64_t> total = 0;
-  parallel_for((pixels + part_pixels - 1) / part_pixels, 1,
-               [&](std::size_t first, std::size_t last) {
-                 const std::uint32_t* taken = input.taken.data();
-                 std::uint16_t* wanted = plan.wanted.data();
-                 const std::uint32_t most = settings.max_spp;
-                 for (std::size_t part = first; part < last; ++part) {
-                   const std::size_t end = std::min((part + 1) * part_pixels, pixels);
-                   std::uint32_t sum = 0;
-#pragma omp simd reduction(+ : sum)
-                   for (std::size_t i = part * part_pixels; i < end; ++i) {
-                     const std::uint32_t room = std::max(most, taken[i]) - taken[i];
-                     const std::uint32_t samples = std::min<std::uint32_t>(wanted[i], room);
-                     wanted[i] = std::uint16_t(samples);
-                     sum += samples;
-                   }
-                   total += sum;
-                 }
-               });
+  std::atomic<std::uint64_t> not_done = 0;
+  parallel_for(std::size_t(input.height), plan_grain_rows, [&](std::size_t begin, std::size_t end) {
+    MarkRows marks(width, input.height);
+    const auto mark = [&](int y) {
+      if (marks.in_picture(y)) {
+        mark_not_done(criterion, std::size_t(y) * width, marks.row(y));
+      }
+    };
+    mark(int(begin) - 1);
+    mark(int(begin));
+    std::uint64_t wanted_here = 0;
+    std::uint64_t marked = 0;
+    for (std::size_t y = begin; y < end; ++y) {
+      mark(int(y) + 1);
+      marked += marks.count(int(y));
+      const std::size_t first = y * width;
+      wanted_here +=
+          plan_row(settings, marks.plan_row(int(y), input.pass, input.taken.subspan(first, width)),
+                   std::span(plan.wanted).subspan(first, width));
+    }
+    total += wanted_here;
+    not_done += marked;
+  });
   plan.total = total;
+  plan.not_done = not_done;
 }
 
 }  // namespace quartet

@@ -28,7 +28,7 @@ struct Policy {
   bool operator==(const Policy&) const = default;
 };
 
-/// What a policy sees at the end of a pass.
+/// What is planned by at the end of a pass.
 struct PlanInput {
   int width;
   int height;
@@ -45,6 +45,18 @@ struct Plan {
   std::uint64_t not_done = 0;
 };
 
+/// One row of a picture at the end of a pass, for a policy. Marks are 1 for a pixel that is not
+/// done, else 0; to the left and to the right of each row is one of 0 more.
+struct PlanRow {
+  std::uint32_t pass;         ///< the last one finished, from 1
+  std::uint32_t first_pixel;  ///< of the picture's
+  std::size_t width;
+  const std::uint8_t* above;  ///< marks; zeros beyond the border
+  const std::uint8_t* here;
+  const std::uint8_t* below;
+  std::span<const std::uint32_t> taken;  ///< of the row, rejected ones included
+};
+
 /// One row of the table of policies.
 struct PolicyRow {
   PolicyId key;
@@ -52,7 +64,10 @@ struct PolicyRow {
   std::string_view label;
   std::string_view source;
   std::span<const PolicyParameterId> parameters;  ///< that it reads
-  void (*plan)(const LaneSettings& settings, const PlanInput& input, Plan& plan);
+  /// Samples of every pixel in the first pass.
+  std::uint16_t (*first)(const Policy& policy);
+  /// What the pixels of a row get next, without regard to their maximum.
+  void (*plan)(const LaneSettings& settings, const PlanRow& row, std::uint16_t* wanted);
 };
 
 std::span<const PolicyRow> policies();
@@ -61,7 +76,13 @@ const PolicyRow& policy(PolicyId key);
 const PolicyRow& find_policy(std::string_view id);
 
 /// Plans the next pass, from nothing but the arguments; `plan` is overwritten. An estimator
-/// without an error gives every pixel one sample, whatever the policy.
+/// without an error gives every pixel one sample, whatever the policy. Runs on the threads of the
+/// current TBB arena.
 void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan);
+
+/// The same for one row after the first pass, of an estimator with an error; returns the sum of
+/// `wanted`.
+std::uint64_t plan_row(const LaneSettings& settings, const PlanRow& row,
+                       std::span<std::uint16_t> wanted);
 
 }  // namespace quartet

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/policies/plan_parts.h"
 #include "renderer/adaptive/policies/policy_rows.h"
 
@@ -17,34 +18,27 @@ float dither(std::uint32_t pixel, std::uint32_t pass) {
   return float(x >> 8) * 0x1p-24f;
 }
 
+std::uint16_t first_of_vote(const Policy& /*policy*/) {
+  return 1;
+}
+
 /// The policy of the 2021 report: every pixel that is not done votes for itself and its up to
 /// eight neighbours, and a pixel gets one sample and then ⌊multiplier · votes⌋ more.
-void plan_vote(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
-  if (input.pass == 0) {
-    plan_everywhere(plan, 1);
-    return;
-  }
-  const auto width = std::size_t(input.width);
+void plan_vote(const LaneSettings& settings, const PlanRow& row, std::uint16_t* wanted) {
   const float multiplier = settings.policy.multiplier;
-  plan_rows(settings, input, plan, [&](std::size_t y, PlanMarks& marks, std::uint16_t* wanted) {
-    const std::uint8_t* columns = marks.columns(int(y));
-    // Through int, for which there are vectors; it rounds down because no term is negative.
-    if (settings.policy.stochastic_rounding) {
-      const auto first = std::uint32_t(y * width);
+  // Through int, for which there are vectors; it rounds down because no term is negative.
+  if (settings.policy.stochastic_rounding) {
 #pragma omp simd
-      for (std::size_t x = 0; x < width; ++x) {
-        const int votes = columns[x] + columns[x + 1] + columns[x + 2];
-        const float offset = dither(first + std::uint32_t(x), input.pass);
-        wanted[x] = std::uint16_t(1 + int(multiplier * float(votes) + offset));
-      }
-    } else {
-#pragma omp simd
-      for (std::size_t x = 0; x < width; ++x) {
-        const int votes = columns[x] + columns[x + 1] + columns[x + 2];
-        wanted[x] = std::uint16_t(1 + int(multiplier * float(votes)));
-      }
+    for (std::size_t x = 0; x < row.width; ++x) {
+      const float offset = dither(row.first_pixel + std::uint32_t(x), row.pass);
+      wanted[x] = std::uint16_t(1 + int(multiplier * float(votes_of(row, x)) + offset));
     }
-  });
+  } else {
+#pragma omp simd
+    for (std::size_t x = 0; x < row.width; ++x) {
+      wanted[x] = std::uint16_t(1 + int(multiplier * float(votes_of(row, x))));
+    }
+  }
 }
 
 constexpr std::array vote_parameters{PolicyParameterId::multiplier,
@@ -83,6 +77,7 @@ constexpr PolicyRow vote_policy{.key = PolicyId::vote,
                                 .label = "vote",
                                 .source = "the 2021 course report",
                                 .parameters = vote_parameters,
+                                .first = first_of_vote,
                                 .plan = plan_vote};
 
 }  // namespace quartet
