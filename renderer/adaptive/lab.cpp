@@ -96,7 +96,7 @@ bool Lab::run_pass(std::stop_token stop) {
       return;
     }
     advance(behind);
-    charge();
+    charge(true);
     forget(shown_);
     if (pilot_) {
       forget(*pilot_);
@@ -132,14 +132,52 @@ void Lab::advance(std::uint32_t pass) {
   }
 }
 
+bool Lab::run_passes(std::uint32_t last, std::stop_token stop) {
+  const std::uint32_t behind = pass();
+  bool replayed = false;
+  if (last > behind + 1) {
+    arena_.execute([&] { replayed = replay(behind, last); });
+  }
+  return replayed || run_pass(std::move(stop));
+}
+
+/// Takes the lanes at a pass that can be replayed as far as stored samples go, and a moment allows;
+/// false if there are none.
+bool Lab::replay(std::uint32_t pass, std::uint32_t last) {
+  std::vector<Lane*> moving;
+  for (Lane& lane : lanes_) {
+    if (lane.pass() == pass && lane.can_replay(shown_.store)) {
+      moving.push_back(&lane);
+    }
+  }
+  if (moving.empty()) {
+    return false;
+  }
+  // A replay is not interrupted: so many pixels take about a tenth of a second.
+  constexpr std::size_t most_pixels = std::size_t(1) << 24;
+  const std::size_t pixels = std::size_t(width()) * std::size_t(height()) * moving.size();
+  const auto most = std::uint32_t(std::max<std::size_t>(most_pixels / pixels, 2));
+  std::vector<std::unique_ptr<Replay>> replays;
+  for (Lane* lane : moving) {
+    replays.push_back(lane->begin_replay(shown_.store, std::min(last - pass, most)));
+  }
+  run_replays(replays);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    moving[i]->end_replay(shown_.store, *replays[i]);
+  }
+  charge(false);
+  return true;
+}
+
 /// Charges all lanes by what samples are known to take by now: also those of before, and lanes that
 /// rest, so that all can be compared and say what a replay of the same stores would say.
-void Lab::charge() {
+/// `one_pass`: no lane has moved further since they were charged last.
+void Lab::charge(bool one_pass) {
   SampleCosts costs = shown_.store.costs();
   if (pilot_) {
     costs.add(pilot_->store.costs());
   }
-  const bool last_only = costs == charged_by_;
+  const bool last_only = one_pass && costs == charged_by_;
   charged_by_ = costs;
   for (Lane& lane : lanes_) {
     lane.charge(costs, last_only);

@@ -55,6 +55,10 @@ class Lab {
   /// store without samples is filled with its first ones whatever `stop` says.
   bool run_pass(std::stop_token stop = {});
 
+  /// The same, but up to pass `last` at once where stored samples allow, without a look at what is
+  /// between. Advances by at least one pass.
+  bool run_passes(std::uint32_t last, std::stop_token stop = {});
+
   /// Gives a lane other settings: it starts again at pass 0, out of stored samples.
   void set_settings(std::size_t lane, const LaneSettings& settings);
 
@@ -85,9 +89,10 @@ class Lab {
   bool takes_from(const Lane& lane, const Stream& stream) const;
 
   void advance(std::uint32_t pass);
+  bool replay(std::uint32_t pass, std::uint32_t last);
   bool trace(Stream& stream, std::uint32_t pass, std::stop_token stop);
   void forget(Stream& stream);
-  void charge();
+  void charge(bool one_pass);
 
   LabOptions options_;
   Stream shown_;

@@ -103,36 +103,67 @@ void Lane::end_pass(double take_seconds) {
     }
     row.estimate(input, error_);
   }
-  PassRecord record;
-  if (!history_.records().empty()) {
-    record = history_.back();
-  }
-  ++record.pass;
-  record.samples += pilot_ ? 2 * plan_.total : plan_.total;
-  record.pilot_samples += pilot_ ? plan_.total : 0;
-  record.max_spp = 0;
+  PassTotal total{.samples = plan_.total, .work = {}};
   if (looks_up_shown_) {
     shown_work_ = {};
   }
   if (looks_up_pilot_) {
     pilot_work_ = {};
   }
-  for (const RowTotal& total : rows_) {
-    record.max_spp = std::max(record.max_spp, total.max_spp);
-    shown_work_ += total.shown;
-    pilot_work_ += total.pilot;
+  for (const RowTotal& row_total : rows_) {
+    total.max_spp = std::max(total.max_spp, row_total.max_spp);
+    shown_work_ += row_total.shown;
+    pilot_work_ += row_total.pilot;
   }
-  SampleCosts::Work work = shown_work_;
-  work += pilot_work_;
-  // Each sample is one unit of work beside its rays.
-  record.rays =
-      std::accumulate(work.units.begin(), work.units.end(), std::uint64_t(0)) - record.samples;
-  replan(record.pass);
+  total.work = shown_work_;
+  total.work += pilot_work_;
+  replan(pass() + 1);
+  total.not_done = plan_.not_done;
   own_seconds_ += take_seconds + watch.seconds();
-  record.not_done = plan_.not_done;
+  record_pass(total);
+}
+
+/// Writes the record of the pass after the last.
+void Lane::record_pass(const PassTotal& total) {
+  PassRecord record;
+  if (!history_.records().empty()) {
+    record = history_.back();
+  }
+  ++record.pass;
+  record.samples += pilot_ ? 2 * total.samples : total.samples;
+  record.pilot_samples += pilot_ ? total.samples : 0;
+  record.max_spp = total.max_spp;
+  // Each sample is one unit of work beside its rays.
+  const auto& units = total.work.units;
+  record.rays = std::accumulate(units.begin(), units.end(), std::uint64_t(0)) - record.samples;
+  record.not_done = total.not_done;
   record.seconds = own_seconds_;
   record.true_error = PassRecord().true_error;
-  history_.push(record, work);
+  history_.push(record, total.work);
+}
+
+bool Lane::can_replay(const SampleStore& store) const {
+  return estimator(settings_.estimator).window && settings_.mode == SampleMode::reuse &&
+         looks_up(film_, store) && store.holds(taken_, plan_.wanted);
+}
+
+std::unique_ptr<Replay> Lane::begin_replay(const SampleStore& store, std::uint32_t passes) {
+  error_.resize(std::size_t(estimator(settings_.estimator).channels) * film_.size());
+  return std::make_unique<Replay>(store, Replay::Start{settings_, pass(), taken_, plan_.wanted},
+                                  passes, film_, error_);
+}
+
+void Lane::end_replay(const SampleStore& store, Replay& replay) {
+  reject(film_, store, taken_, replay.taken());
+  taken_.swap(replay.taken());
+  plan_.wanted.swap(replay.wanted());
+  plan_.total = std::accumulate(plan_.wanted.begin(), plan_.wanted.end(), std::uint64_t(0));
+  for (const PassTotal& total : replay.totals()) {
+    own_seconds_ += replay.seconds() / double(replay.passes());
+    record_pass(total);
+  }
+  shown_work_ = replay.totals().back().work;
+  plan_.not_done = replay.totals().back().not_done;
 }
 
 void Lane::forget_true_errors() {

@@ -8,6 +8,7 @@
 #include "renderer/adaptive/lane_settings.h"
 #include "renderer/adaptive/pass_history.h"
 #include "renderer/adaptive/policies/policy.h"
+#include "renderer/adaptive/replay.h"
 #include "renderer/trace/store/sample_store.h"
 
 namespace quartet {
@@ -60,6 +61,15 @@ class Lane {
   /// cost. The pass's record is charged for its samples by charge().
   void end_pass(double take_seconds);
 
+  // Several passes together.
+
+  /// Whether it can take passes from where it stands by a Replay, and has the samples of the next.
+  bool can_replay(const SampleStore& store) const;
+  /// At most so many passes.
+  std::unique_ptr<Replay> begin_replay(const SampleStore& store, std::uint32_t passes);
+  /// Takes over what came of it, after run_replays().
+  void end_replay(const SampleStore& store, Replay& replay);
+
   /// What its samples took is from now on what these costs say; `last_only`: all records but the
   /// last were charged by the same.
   void charge(const SampleCosts& costs, bool last_only) { history_.charge(costs, last_only); }
@@ -86,6 +96,7 @@ class Lane {
   };
 
   std::uint32_t count(std::size_t begin, std::size_t end);
+  void record_pass(const PassTotal& total);
   void replan(std::uint32_t pass);
 
   LaneSettings settings_;

@@ -169,7 +169,9 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
       if (tracing_gives_way()) {
         stop_.request_stop();  // what is stored is replayed nevertheless
       }
-      if (!lab_->run_pass(stop_.get_token())) {
+      // True errors are of each pass, and want its picture.
+      const bool skips = replaying_ && !measured_against_;
+      if (!lab_->run_passes(skips ? replays_to_ : lab_->pass() + 1, stop_.get_token())) {
         return mailbox_.take();
       }
       if (measured_against_) {

@@ -22,9 +22,11 @@ struct BenchScene {
     settings.height = height;
   }
 
-  Lab lab(std::span<const LaneSettings> lane_settings, int threads) const {
+  Lab lab(std::span<const LaneSettings> lane_settings, int threads,
+          std::size_t memory = LabOptions().memory) const {
     LabOptions options;
     options.threads = threads;
+    options.memory = memory;
     return Lab(sample_source(scene, settings), settings.width, settings.height, lane_settings,
                options);
   }

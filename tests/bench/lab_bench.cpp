@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "renderer/base/interval.h"
 #include "tests/bench/bench_scene.h"
 
 namespace quartet {
@@ -54,26 +55,60 @@ void four_lanes(benchmark::State& state) {
 }
 BENCHMARK(four_lanes)->Unit(benchmark::kMillisecond)->Iterations(2)->UseRealTime();
 
-/// Replays lanes of one lab out of stored samples.
+/// Replays lanes of one lab out of stored samples, pass by pass or as many passes as go at once:
+/// against each other, both in one round.
 void replay(benchmark::State& state, std::size_t lanes, int threads) {
-  const BenchScene bench("cornell-checker", width, height);
+  const int picture_width = int(state.range(0));
+  const int picture_height = picture_width * 9 / 16;
+  const BenchScene bench("cornell-checker", picture_width, picture_height);
   const auto lane_settings = four_lanes();
-  Lab lab = bench.lab(lane_settings, threads);
+  Lab lab = bench.lab(lane_settings, threads, std::size_t(16) << 30);
   run(lab);
+  std::vector<double> by_pass;
+  std::vector<double> at_once;
   for (auto _ : state) {
-    for (std::size_t i = 0; i < lanes; ++i) {
-      lab.set_settings(i, lane_settings[i]);
+    for (const bool together : {false, true}) {
+      for (std::size_t i = 0; i < lanes; ++i) {
+        lab.set_settings(i, lane_settings[i]);
+      }
+      const Stopwatch watch;
+      while (lab.pass() < passes) {
+        together ? lab.run_passes(passes) : lab.run_pass();
+      }
+      (together ? at_once : by_pass).push_back(watch.seconds());
     }
-    run(lab);
   }
+  const double places = double(picture_width) * picture_height * passes * double(lanes);
+  state.counters["ms"] = median(at_once) * 1e3;
+  state.counters["ns/pixel"] = median(at_once) / places * 1e9;
+  state.counters["to_pass_by_pass"] = median(at_once) / median(by_pass);
   const SampleStore& store = lab.store();
   state.counters["B/sample"] = double(store.bytes()) / double(store.stored());
   const Film& film = lab.lanes().front().film();
   state.counters["B/pixel"] = double(film.bytes()) / double(film.size());
 }
 BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
+    ->Arg(480)
+    ->Arg(960)
+    ->Arg(1920)
+
+    ->Iterations(7)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
+BENCHMARK_CAPTURE(replay, one_lane_two_threads, 1, 2)
+    ->Arg(480)
+    ->Arg(960)
+    ->Arg(1920)
+
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)
+    ->Arg(480)
+    ->Iterations(7)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
 /// Replays one lane with an estimator that wants the samples themselves, not only their means.
 void replay_samples(benchmark::State& state, EstimatorId id) {
   const BenchScene bench("cornell-checker", width, height);
@@ -95,8 +130,6 @@ BENCHMARK_CAPTURE(replay_samples, rigau_kl, EstimatorId::rigau_kl)->Unit(benchma
 BENCHMARK_CAPTURE(replay_samples, rigau_chi2, EstimatorId::rigau_chi2)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(replay_samples, cycles, EstimatorId::cycles)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(replay, one_lane_two_threads, 1, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace quartet

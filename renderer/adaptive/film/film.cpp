@@ -123,6 +123,13 @@ void Film::add_luminance(std::size_t pixel, double count, double luminance) {
   mean = moved;
 }
 
+void Film::put_row(std::size_t first, std::span<const std::uint32_t> counts, const MeanRow& means) {
+  std::ranges::copy(counts, counts_.data() + first);
+  for (std::size_t c = 0; c < means.size(); ++c) {
+    std::copy_n(means[c], counts.size(), means_[c].data() + first);
+  }
+}
+
 std::uint32_t Film::reject(std::size_t pixel, std::span<const glm::vec3> samples) {
   const auto bad = std::uint32_t(std::count_if(
       samples.begin(), samples.end(), [](const glm::vec3& sample) { return !acceptable(sample); }));

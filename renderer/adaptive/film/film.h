@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/adaptive/estimators/divergence.h"
+#include "renderer/adaptive/estimators/window_kernel.h"
 #include "renderer/base/image.h"
 #include "renderer/trace/store/running_mean.h"
 
@@ -78,6 +79,8 @@ class Film {
       __builtin_prefetch(plane.data() + pixel, 1);
     }
   }
+  /// The same for pixels that follow one another, from `first` on; `means` has one number a pixel.
+  void put_row(std::size_t first, std::span<const std::uint32_t> counts, const MeanRow& means);
   /// Counts the samples that were left out of a mean given by put(); returns how many of these.
   std::uint32_t reject(std::size_t pixel, std::span<const glm::vec3> samples);
 

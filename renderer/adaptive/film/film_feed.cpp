@@ -119,6 +119,29 @@ void accumulate(Film& film, const PassSamples& pass, int tile_row, std::span<std
   }
 }
 
+void reject(Film& film, const SampleStore& store, std::span<const std::uint32_t> before,
+            std::span<const std::uint32_t> after) {
+  std::vector<glm::vec3> samples;
+  for (int row = 0; row < store.tile_rows(); ++row) {
+    for (int column = 0; column < store.tile_columns(); ++column) {
+      const SampleStore::TileMeans tile = store.tile_means(column, row);
+      if (!tile.rejected) {
+        continue;
+      }
+      for (int y = 0; y < tile.rows; ++y) {
+        const std::size_t first = first_pixel(film, tile, y);
+        for (std::size_t pixel = first; pixel < first + std::size_t(tile.columns); ++pixel) {
+          samples.resize(after[pixel] - before[pixel]);
+          store.read(pixel, before[pixel], samples);
+          film.reject(pixel, samples);
+          film.put(pixel, after[pixel] - film.rejected()[pixel],
+                   {film.mean(0)[pixel], film.mean(1)[pixel], film.mean(2)[pixel]});
+        }
+      }
+    }
+  }
+}
+
 void catch_up(Film& film, const SampleStore& store, std::span<const std::uint32_t> taken) {
   if (film.has_sums()) {
     return;

@@ -28,6 +28,11 @@ void look_up(Film& film, const PassSamples& pass, int tile_row, std::span<std::u
 /// Adds the work of this pass's samples to `cells`.
 void accumulate(Film& film, const PassSamples& pass, int tile_row, std::span<std::uint64_t> cells);
 
+/// Counts the rejected ones among samples before[p] … after[p] − 1 of each pixel p, the last of
+/// which are those that it has, and were looked up elsewhere.
+void reject(Film& film, const SampleStore& store, std::span<const std::uint32_t> before,
+            std::span<const std::uint32_t> after);
+
 /// Sums up what was looked up, `taken` samples of every pixel, so that it can be added to. Runs on
 /// the threads of the current TBB arena.
 void catch_up(Film& film, const SampleStore& store, std::span<const std::uint32_t> taken);

@@ -38,6 +38,9 @@ class SampleStore {
   /// Whether samples taken[p] … taken[p] + wanted[p] − 1 of each pixel p are available.
   bool holds(std::span<const std::uint32_t> taken, std::span<const std::uint16_t> wanted) const;
 
+  /// Past the last sample of each pixel that is available.
+  std::span<const std::uint32_t> ends() const { return ends_; }
+
   /// Makes samples [begin[p], end[p]) of each pixel p available; nothing where begin ≥ end. Traces
   /// what is missing on the threads of the current TBB arena. Returns false if `stop` ended it
   /// early; what was traced until then is kept.
