@@ -36,6 +36,7 @@ struct ExrImage {
   ExrWindow display;
   std::vector<ExrChannel> channels;
   std::map<std::string, std::string> attributes;
+  bool rec709 = true;  ///< as read: whether its R, G and B are those of Rec. 709
 
   ExrImage() = default;
   ExrImage(int width, int height) : data{0, 0, width, height}, display{0, 0, width, height} {}
@@ -63,6 +64,26 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image);
 /// EXR, no regular file, truncated, deep, subsampled channels, absurd size), and Cancelled soon
 /// after a stop was asked for.
 ExrImage read_exr(const std::filesystem::path& path, const std::stop_token& stop = {});
+
+/// What a file says of a part before its pixels are read. A file with one part does not name it.
+struct ExrPartHeader {
+  std::string name;
+  std::vector<std::string> channels;
+  std::map<std::string, std::string> attributes;
+};
+
+/// Whether a file begins with the first bytes of EXR. Throws std::runtime_error that names the path
+/// if it cannot be read.
+bool begins_as_exr(const std::filesystem::path& path);
+
+/// The headers of all parts, throwing as read_exr does; deep and subsampled ones among them.
+std::vector<ExrPartHeader> read_exr_headers(const std::filesystem::path& path);
+
+/// As read_exr, only these channels of one part, as read_exr_headers gave them. Other channels take
+/// no memory.
+ExrImage read_exr_channels(const std::filesystem::path& path, std::size_t part,
+                           const std::vector<std::string>& channels,
+                           const std::stop_token& stop = {});
 
 /// The channels R, G, B of an image that was read from `path`, within its display window: what
 /// other programs render beyond its edges is left out. Throws std::runtime_error that names the

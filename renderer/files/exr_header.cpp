@@ -14,27 +14,21 @@
 namespace quartet {
 namespace {
 
-/// What is compressed at once, and how far at most.
-struct CompressionLimits {
-  std::int64_t lines;     ///< of a scanline file
-  std::uint64_t expands;  ///< bytes of pixels that a byte of the file can become
-};
-
 // In the order of the numbers in the file: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
 // Deflate makes up to 1032 bytes of one, PXR24 a third more by leaving bits out; RLE 128 of two;
 // PIZ's run lengths 512 of less than three; B44A 32 of three. DWA's flat blocks of 64 pixels take
 // a few bytes which are deflated in turn. Rounded up.
-constexpr std::array<CompressionLimits, 10> compression_limits{{{1, 1},
-                                                                {1, 128},
-                                                                {1, 1100},
-                                                                {16, 1100},
-                                                                {32, 1100},
-                                                                {16, 1500},
-                                                                {32, 16},
-                                                                {32, 16},
-                                                                {32, 150'000},
-                                                                {256, 150'000}}};
-constexpr CompressionLimits unknown_compression{1, 150'000};
+constexpr std::array<ExrCompressionLimits, 10> compression_limits{{{1, 1},
+                                                                   {1, 128},
+                                                                   {1, 1100},
+                                                                   {16, 1100},
+                                                                   {32, 1100},
+                                                                   {16, 1500},
+                                                                   {32, 16},
+                                                                   {32, 16},
+                                                                   {32, 150'000},
+                                                                   {256, 150'000}}};
+constexpr ExrCompressionLimits unknown_compression{1, 150'000};
 
 // OpenEXR keeps several whole tiles in memory, however small the picture is.
 constexpr std::uint64_t max_tile_bytes = std::uint64_t(1) << 28;
@@ -63,22 +57,6 @@ std::string read_name(FileReader& file) {
   }
   return name;
 }
-
-struct ExrTiles {
-  std::uint32_t width = 0, height = 0;
-};
-
-/// What a part's header says of its size.
-struct ExrPart {
-  std::int64_t left = 0, top = 0, width = 0, height = 0;
-  std::uint64_t channels = 0;
-  std::uint64_t pixel_bytes = 0;  ///< of all channels of a pixel
-  CompressionLimits compression = compression_limits.front();
-  std::optional<ExrTiles> tiles;
-  std::uint64_t chunks = 0;  ///< as it is given; 0 if it is not
-  bool deep = false;         ///< any number of values a pixel
-  bool empty = true;         ///< no attribute at all: the end of the headers
-};
 
 /// Values that OpenEXR reads as so many bytes, whatever the header says: a header that says
 /// otherwise would be another one to OpenEXR than it is here.
@@ -229,13 +207,17 @@ bool is_sane(const ExrPart& part) {
          (!part.tiles || (part.tiles->width > 0 && part.tiles->height > 0));
 }
 
-void check_pixels(const ExrPart& part, std::uint64_t bytes) {
+bool has_huge_tiles(const ExrPart& part) {
+  return part.tiles && (part.tiles->width > max_exr_side || part.tiles->height > max_exr_side);
+}
+
+void check_pixels(const ExrPart& part, std::uint64_t channels, std::uint64_t bytes) {
   const std::uint64_t pixels = std::uint64_t(part.width) * std::uint64_t(part.height);
   const ExrWindow window{int(part.left), int(part.top), int(part.width), int(part.height)};
-  if (part.channels > max_exr_numbers / pixels) {
-    refuse_header(fmt::format(
-        "{} pixels with {} channels would take {} MB; at most {} MB would be right",
-        text_of(window), part.channels, (part.channels * pixels) >> 18, max_exr_numbers >> 18));
+  if (channels > max_exr_numbers / pixels) {
+    refuse_header(
+        fmt::format("{} pixels with {} channels would take {} MB; at most {} MB would be right",
+                    text_of(window), channels, (channels * pixels) >> 18, max_exr_numbers >> 18));
   }
   if (part.pixel_bytes * pixels / part.compression.expands > bytes) {
     refuse_header(fmt::format(
@@ -245,7 +227,7 @@ void check_pixels(const ExrPart& part, std::uint64_t bytes) {
   }
   if (part.tiles) {
     const auto [width, height] = *part.tiles;
-    if (width > max_exr_side || height > max_exr_side || block_bytes(part) > max_tile_bytes) {
+    if (has_huge_tiles(part) || block_bytes(part) > max_tile_bytes) {
       refuse_header(fmt::format("tiles of {}x{} pixels are too large; up to {} MB would be right",
                                 width, height, max_tile_bytes >> 20));
     }
@@ -254,36 +236,50 @@ void check_pixels(const ExrPart& part, std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t check_exr_headers(FileReader& file) {
+ExrSizes check_exr_headers(FileReader& file) {
   constexpr std::uint32_t exr_magic = 20000630;
   constexpr std::uint32_t multi_part = 0x1000;
+  ExrSizes sizes;
   file.seek(0);
   if (file.size() < 8 || read_word<std::uint32_t>(file) != exr_magic) {
-    return 0;
+    return sizes;
   }
   const bool several = (read_word<std::uint32_t>(file) & multi_part) != 0;
-  const ExrPart first = read_part(file);
-  std::uint64_t table = is_sane(first) ? pieces(first) : 0;
-  for (bool more = several && !first.empty; more;) {
-    const ExrPart next = read_part(file);
-    more = !next.empty;
-    table += is_sane(next) ? pieces(next) : next.chunks;
+  std::uint64_t table = 0;
+  for (bool more = true; more;) {
+    const ExrPart part = read_part(file);
+    more = several && !part.empty;
+    if (!more && several) {
+      break;
+    }
+    table += is_sane(part) ? pieces(part) : part.chunks;
+    if (is_sane(part) && !has_huge_tiles(part)) {
+      sizes.block = std::max(sizes.block, block_bytes(part));
+    }
+    sizes.parts.push_back(part);
   }
-  const std::uint64_t bytes = file.left();
-  if (first.deep) {
-    refuse_header("its pixels are deep; one value a channel and pixel would be right");
-  }
-  if (is_sane(first)) {
-    check_pixels(first, bytes);
-  }
+  sizes.bytes = file.left();
   constexpr std::uint64_t entry = 8;  // bytes
-  if (table > bytes / entry) {
+  if (table > sizes.bytes / entry) {
     refuse_header(
         fmt::format("its header claims {} blocks or tiles, and {} bytes follow; it is cut or "
                     "damaged",
-                    table, bytes));
+                    table, sizes.bytes));
   }
-  return is_sane(first) ? block_bytes(first) : 0;
+  return sizes;
+}
+
+void check_exr_part(const ExrSizes& sizes, std::size_t part, std::size_t channels) {
+  if (part >= sizes.parts.size()) {
+    return;
+  }
+  const ExrPart& chosen = sizes.parts[part];
+  if (chosen.deep) {
+    refuse_header("its pixels are deep; one value a channel and pixel would be right");
+  }
+  if (is_sane(chosen)) {
+    check_pixels(chosen, channels, sizes.bytes);
+  }
 }
 
 std::string text_of(const ExrWindow& window) {

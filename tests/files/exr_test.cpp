@@ -66,6 +66,27 @@ TEST(Exr, HalfsAreReadAsFloats) {
   EXPECT_EQ(floats(read, "Y"), (std::vector<float>{0.5f, -2.0f, 65504.0f, 0.0999755859375f}));
 }
 
+TEST(Exr, ChannelsThatAreNotAskedForAreNotRead) {
+  const TempFolder folder;
+  ExrImage image(4, 2);
+  for (const char* name : {"A", "Depth.Z", "R"}) {
+    image.add(name, noise(8, unsigned(name[0])));
+  }
+  image.attributes["scene"] = "a";
+  write_exr(folder / "a.exr", image);
+  const std::vector<ExrPartHeader> headers = read_exr_headers(folder / "a.exr");
+  ASSERT_EQ(headers.size(), 1u);
+  EXPECT_EQ(headers[0].name, "");
+  EXPECT_EQ(headers[0].channels, (std::vector<std::string>{"A", "Depth.Z", "R"}));
+  EXPECT_EQ(headers[0].attributes, image.attributes);
+  const ExrImage read = read_exr_channels(folder / "a.exr", 0, {"Depth.Z"});
+  ASSERT_EQ(read.channels.size(), 1u);
+  EXPECT_EQ(floats(read, "Depth.Z"), floats(image, "Depth.Z"));
+  EXPECT_TRUE(read.rec709);
+  EXPECT_NE(error_of([&] { read_exr_channels(folder / "a.exr", 0, {"B"}); }).find("a.exr"),
+            std::string::npos);
+}
+
 TEST(Exr, RadianceIsRgbInThisOrder) {
   const TempFolder folder;
   RadianceImage radiance(3, 2);
