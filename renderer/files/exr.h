@@ -15,7 +15,8 @@ namespace quartet {
 
 /// One channel, rows from the top left. Names of ours are stable: R G B (linear, Rec. 709),
 /// SampleCount, Error.<estimator>, Variance.R, Variance.G, Variance.B, SquaredError, Rejected.
-/// Counts are uint32: exact at any number of samples, where a float stops at 2^24.
+/// Counts that people look at are floats too, exact up to 2^24: OpenImageIO, and so what is built
+/// on it, reads channels of integers as 0. Integers are for what only we read again.
 struct ExrChannel {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> pixels;

@@ -45,6 +45,28 @@ std::string text_of(const Camera& camera) {
                      camera.aperture_radius, camera.focus_distance);
 }
 
+/// Counts as floats, which round above 2^24, or as integers, as they once were.
+class CountChannel {
+ public:
+  explicit CountChannel(const ExrChannel& channel) : channel_(channel) {}
+
+  bool is(std::size_t pixel, std::uint64_t count) const {
+    return std::visit(
+        [&](const auto& pixels) {
+          using Number = typename std::decay_t<decltype(pixels)>::value_type;
+          return double(pixels[pixel]) == double(Number(count));
+        },
+        channel_.pixels);
+  }
+  std::string text(std::size_t pixel) const {
+    return std::visit([&](const auto& pixels) { return fmt::format("{}", pixels[pixel]); },
+                      channel_.pixels);
+  }
+
+ private:
+  const ExrChannel& channel_;
+};
+
 /// Reads the header of a reference; each function throws std::runtime_error that says what is
 /// wrong.
 class Header {
@@ -105,6 +127,14 @@ class Header {
       fail(fmt::format("it has no channel {} of integers", name));
     }
     return std::get<std::vector<std::uint32_t>>(channel->pixels);
+  }
+
+  CountChannel counts(const std::string& name) const {
+    const ExrChannel* channel = exr_.find(name);
+    if (channel == nullptr) {
+      fail(fmt::format("it has no channel {}", name));
+    }
+    return CountChannel(*channel);
   }
 
   const std::vector<float>& numbers(const std::string& name) const {
@@ -191,22 +221,22 @@ void check_pixels(const Header& header, const ReferenceSums& sums) {
   const auto& [first, second] = sums.halves;
   const std::array<const std::vector<float>*, 3> means{&header.numbers("R"), &header.numbers("G"),
                                                        &header.numbers("B")};
-  const std::vector<std::uint32_t>& in_mean = header.words("SampleCount");
-  const std::vector<std::uint32_t>& rejected = header.words("Rejected");
-  for (std::size_t i = 0; i < in_mean.size(); ++i) {
+  const CountChannel in_mean = header.counts("SampleCount");
+  const CountChannel rejected = header.counts("Rejected");
+  for (std::size_t i = 0; i < first.sums.size(); ++i) {
     const auto fail = [&](std::string_view reason) {
       const std::size_t width = std::size_t(sums.settings.width);
       header.fail(fmt::format("pixel {},{}: {}", i % width, i / width, reason));
     };
     const std::uint64_t left_out = std::uint64_t(first.rejected[i]) + second.rejected[i];
-    if (std::uint64_t(in_mean[i]) + rejected[i] != sums.spp) {
-      fail(fmt::format("SampleCount {} and Rejected {} are not the {} spp of its header",
-                       in_mean[i], rejected[i], sums.spp));
-    }
-    if (left_out != rejected[i] || first.rejected[i] > sums.samples_of(0) ||
+    if (!rejected.is(i, left_out) || first.rejected[i] > sums.samples_of(0) ||
         second.rejected[i] > sums.samples_of(1)) {
       fail(fmt::format("its halves rejected {} and {} samples, both together {}", first.rejected[i],
-                       second.rejected[i], rejected[i]));
+                       second.rejected[i], rejected.text(i)));
+    }
+    if (!in_mean.is(i, sums.spp - left_out)) {
+      fail(fmt::format("SampleCount {} and Rejected {} are not the {} spp of its header",
+                       in_mean.text(i), rejected.text(i), sums.spp));
     }
     const glm::vec3 mean = pixel_mean(first.sums[i] + second.sums[i], sums.spp, left_out);
     for (int c = 0; c < 3; ++c) {
@@ -251,11 +281,12 @@ ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line) {
   const std::size_t pixels = reference.image.size();
   ExrImage exr(settings.width, settings.height);
   exr.add_radiance(reference.image);
-  std::vector<std::uint32_t> rejected(pixels);
-  std::vector<std::uint32_t> in_mean(pixels);
+  std::vector<float> rejected(pixels);
+  std::vector<float> in_mean(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
-    rejected[i] = sums.halves[0].rejected[i] + sums.halves[1].rejected[i];
-    in_mean[i] = std::uint32_t(sums.spp) - rejected[i];
+    const std::uint32_t left_out = sums.halves[0].rejected[i] + sums.halves[1].rejected[i];
+    rejected[i] = float(left_out);
+    in_mean[i] = float(std::uint32_t(sums.spp) - left_out);
   }
   exr.add("SampleCount", std::move(in_mean));
   exr.add("Rejected", std::move(rejected));
@@ -280,9 +311,13 @@ ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line) {
   return exr;
 }
 
+bool holds_sums(const std::map<std::string, std::string>& attributes) {
+  const auto kind = attributes.find("reference");
+  return kind != attributes.end() && kind->second == reference_kind;
+}
+
 std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem::path& path) {
-  const auto kind = exr.attributes.find("reference");
-  if (kind == exr.attributes.end() || kind->second != reference_kind) {
+  if (!holds_sums(exr.attributes)) {
     return std::nullopt;
   }
   const Header header(exr, path);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,11 +38,16 @@ struct ReferenceSums {
 Reference reference_of(const ReferenceSums& sums);
 
 /// R, G, B, SampleCount and Rejected as in other files of ours, and Half0 and Half1: the doubles of
-/// the sums as two integers each (high and low word), so that they come back to the bit.
+/// the sums as two integers each (high and low word), so that they come back to the bit, and their
+/// exact counts as integers.
 ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line);
 
-/// What exr_of() wrote; nothing if the picture, read from `path`, is not one of those. Throws
-/// std::runtime_error if it is, but damaged: also if header and pixels contradict each other.
+/// Whether such a header is of a file that exr_of() made.
+bool holds_sums(const std::map<std::string, std::string>& attributes);
+
+/// What exr_of() wrote, or did when SampleCount and Rejected were integers; nothing if the picture,
+/// read from `path`, is not one of those. Throws std::runtime_error if it is, but damaged: also if
+/// header and pixels contradict each other.
 std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem::path& path);
 
 /// Samples a pixel in the reference that a file holds, if they are of the same scene, settings and

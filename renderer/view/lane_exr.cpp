@@ -19,10 +19,12 @@ ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
   for (std::size_t c = 0; c < 3; ++c) {
     exr.add(channel_names[c], from.mean[c]);
   }
-  std::vector<std::uint32_t> rejected = from.rejected;
-  rejected.resize(pixels, 0);
-  std::vector<std::uint32_t> in_mean(pixels);
-  std::ranges::transform(from.taken, rejected, in_mean.begin(), std::minus());
+  std::vector<float> rejected(from.rejected.begin(), from.rejected.end());
+  rejected.resize(pixels, 0.0f);
+  std::vector<float> in_mean(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    in_mean[i] = float(from.taken[i] - (from.rejected.empty() ? 0 : from.rejected[i]));
+  }
   exr.add("SampleCount", std::move(in_mean));
   exr.add("Rejected", std::move(rejected));
 

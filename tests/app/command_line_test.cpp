@@ -119,7 +119,7 @@ TEST(CommandLine, FigureWritesAllItsFiles) {
     EXPECT_EQ(exr.attributes.at("samples"),
               std::to_string(lane.at("history").back().at("samples").get<std::uint64_t>()));
     EXPECT_EQ(exr.attributes.at("seed"), "7");
-    const auto& counts = std::get<std::vector<std::uint32_t>>(exr.find("SampleCount")->pixels);
+    const auto& counts = std::get<std::vector<float>>(exr.find("SampleCount")->pixels);
     EXPECT_EQ(*std::ranges::max_element(counts), lane.at("history").back().at("max_spp"));
     EXPECT_NE(exr.find("Variance.R"), nullptr);
     EXPECT_NE(exr.find("Rejected"), nullptr);

@@ -86,8 +86,7 @@ TEST_F(ModeOption, FilesSayTheModeAndWhatThePilotTook) {
   const auto samples = std::stoull(unbiased.attributes.at("samples"));
   EXPECT_EQ(2 * std::stoull(unbiased.attributes.at("pilotSamples")), samples);
   double shown = 0.0;
-  for (const std::uint32_t count :
-       std::get<std::vector<std::uint32_t>>(unbiased.find("SampleCount")->pixels)) {
+  for (const float count : std::get<std::vector<float>>(unbiased.find("SampleCount")->pixels)) {
     shown += count;
   }
   EXPECT_EQ(2.0 * shown, double(samples));

@@ -11,6 +11,7 @@
 
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/files/temp_folder.h"
 
 namespace quartet {
 namespace {
@@ -43,8 +44,8 @@ TEST(ReferenceSums, EveryChannelOfItsFileHoldsItsOwnNumber) {
   EXPECT_EQ(floats("R"), (Floats{8.0f / 6, 14.0f / 6}));
   EXPECT_EQ(floats("G"), (Floats{10.0f / 6, 16.0f / 6}));
   EXPECT_EQ(floats("B"), (Floats{12.0f / 6, 18.0f / 6}));
-  EXPECT_EQ(words("SampleCount"), (Words{6, 6}));
-  EXPECT_EQ(words("Rejected"), (Words{3, 3}));
+  EXPECT_EQ(floats("SampleCount"), (Floats{6, 6}));
+  EXPECT_EQ(floats("Rejected"), (Floats{3, 3}));
   EXPECT_EQ(words("Half0.Rejected"), (Words{1, 0}));
   EXPECT_EQ(words("Half1.Rejected"), (Words{2, 3}));
   EXPECT_EQ(exr.channels.size(), 5u + 2 * 7);
@@ -101,6 +102,30 @@ TEST(ReferenceSums, TheSeedsOfItsHalvesDifferFromEachOtherAndFromSeedToSeed) {
   other.add(2);
   EXPECT_NE(other.reference()->halves[0], reference->halves[0]);
   EXPECT_NE(other.reference()->halves[1], reference->halves[1]);
+}
+
+TEST(ReferenceSums, CountsMayBeIntegersAsTheyOnceWere) {
+  ReferenceSums sums;
+  sums.scene_name = "two";
+  sums.scene_hash = "abc";
+  sums.settings.width = 2;
+  sums.settings.height = 1;
+  // More than a float counts one by one.
+  sums.spp = (std::uint64_t(1) << 25) + 3;
+  sums.halves[0].sums = sums.halves[1].sums = {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
+  sums.halves[0].rejected = {0, 2};
+  sums.halves[1].rejected = {0, 0};
+  ExrImage exr = exr_of(sums, "quartet reference x");
+  EXPECT_EQ(sums_of(exr, "x.exr")->spp, sums.spp);
+  const auto set_counts = [&](const char* name, std::vector<std::uint32_t> counts) {
+    const_cast<ExrChannel*>(exr.find(name))->pixels = std::move(counts);
+  };
+  set_counts("SampleCount", {(1u << 25) + 3, (1u << 25) + 1});
+  set_counts("Rejected", {0, 2});
+  EXPECT_EQ(sums_of(exr, "x.exr")->halves, sums.halves);
+  set_counts("SampleCount", {(1u << 25) + 4, (1u << 25) + 1});
+  EXPECT_NE(error_of([&] { sums_of(exr, "x.exr"); }).find("SampleCount 33554436"),
+            std::string::npos);
 }
 
 }  // namespace

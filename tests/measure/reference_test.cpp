@@ -400,15 +400,19 @@ TEST(Reference, PixelsMustBeThoseOfTheirSumsAndCounts) {
     return std::get<std::vector<std::uint32_t>>(
         const_cast<ExrChannel*>(exr.find(name))->pixels)[37];
   };
+  const auto number = [](ExrImage& exr, const char* name) -> float& {
+    return std::get<std::vector<float>>(const_cast<ExrChannel*>(exr.find(name))->pixels)[37];
+  };
   const std::vector<std::function<void(ExrImage&)>> damages{
-      [&](ExrImage& e) { ++word(e, "SampleCount"); },
-      [&](ExrImage& e) { --word(e, "SampleCount"), ++word(e, "Rejected"); },
+      [&](ExrImage& e) { ++number(e, "SampleCount"); },
+      [&](ExrImage& e) { --number(e, "SampleCount"), ++number(e, "Rejected"); },
+      [&](ExrImage& e) { number(e, "SampleCount") = std::numeric_limits<float>::quiet_NaN(); },
       [&](ExrImage& e) { ++word(e, "Half0.Rejected"); },
       [&](ExrImage& e) {
         // More than the half has samples.
         word(e, "Half1.Rejected") = 2;
-        word(e, "Rejected") = 2;
-        word(e, "SampleCount") = 1;
+        number(e, "Rejected") = 2;
+        number(e, "SampleCount") = 1;
       },
       [&](ExrImage& e) { word(e, "Half0.R.high") += 1u << 20; },    // twice the sum
       [&](ExrImage& e) { word(e, "Half1.G.high") = 0xbff00000u; },  // negative

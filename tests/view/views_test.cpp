@@ -359,8 +359,8 @@ TEST(LaneExr, HoldsWhatTheSnapshotKnows) {
                            "Error.contrast.B", "Variance.R", "Variance.G", "Variance.B"}) {
     EXPECT_TRUE(exr.find(name)) << name;
   }
-  EXPECT_EQ(std::get<std::vector<std::uint32_t>>(exr.find("SampleCount")->pixels),
-            (std::vector<std::uint32_t>{3, 5}));
+  EXPECT_EQ(std::get<std::vector<float>>(exr.find("SampleCount")->pixels),
+            (std::vector<float>{3, 5}));
   const ExrImage other = lane_exr(snapshot, 1);
   EXPECT_TRUE(other.find("Error.kl"));
   EXPECT_FALSE(other.find("Variance.R"));
@@ -383,18 +383,12 @@ TEST(LaneExr, EveryChannelHoldsItsOwnNumbers) {
     const ExrChannel* channel = exr.find(name);
     return channel ? std::get<std::vector<float>>(channel->pixels) : std::vector<float>();
   };
-  const auto counts = [&](const char* name) {
-    const ExrChannel* channel = exr.find(name);
-    return channel ? std::get<std::vector<std::uint32_t>>(channel->pixels)
-                   : std::vector<std::uint32_t>();
-  };
   using Floats = std::vector<float>;
-  using Counts = std::vector<std::uint32_t>;
   EXPECT_EQ(floats("R"), (Floats{1, 2}));
   EXPECT_EQ(floats("G"), (Floats{3, 4}));
   EXPECT_EQ(floats("B"), (Floats{5, 6}));
-  EXPECT_EQ(counts("SampleCount"), (Counts{98, 98}));
-  EXPECT_EQ(counts("Rejected"), (Counts{9, 10}));
+  EXPECT_EQ(floats("SampleCount"), (Floats{98, 98}));
+  EXPECT_EQ(floats("Rejected"), (Floats{9, 10}));
   EXPECT_EQ(floats("Error.contrast.R"), (Floats{11, 12}));
   EXPECT_EQ(floats("Error.contrast.G"), (Floats{13, 14}));
   EXPECT_EQ(floats("Error.contrast.B"), (Floats{15, 16}));
