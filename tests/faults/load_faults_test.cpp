@@ -5,6 +5,8 @@
 
 #include "app/window/config_file.h"
 #include "renderer/files/exr.h"
+#include "renderer/files/picture.h"
+#include "renderer/files/png.h"
 #include "renderer/measure/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/scene_hash.h"
@@ -34,6 +36,17 @@ std::string digest(const ExrImage& image) {
   return text;
 }
 
+std::string digest(const Picture& picture) {
+  std::string text = picture.layer;
+  for (const glm::vec3 c : picture.image.pixels()) {
+    text += fmt::format(" {} {} {}", c.r, c.g, c.b);
+  }
+  for (const std::string& note : picture.notes) {
+    text += " " + note;
+  }
+  return text;
+}
+
 /// A kind of file: how it is made, and how it is read into words.
 struct LoadKind {
   const char* name;
@@ -51,6 +64,28 @@ std::vector<LoadKind> loads() {
          write_exr(folder / "a.exr", image);
        },
        [](const TempFolder& folder) { return digest(read_exr(folder / "a.exr")); }},
+      {"PNG", [](const TempFolder& folder) { write_png(folder / "a", DisplayImage(5, 4)); },
+       [](const TempFolder& folder) { return digest(read_picture(folder / "a")); }},
+      {"PFM",
+       [](const TempFolder& folder) {
+         write_bytes_to(folder / "a", "Pf\n2 1\n-2\n" + std::string(8, '?'));
+       },
+       [](const TempFolder& folder) { return digest(read_picture(folder / "a")); }},
+      {"HDR",
+       [](const TempFolder& folder) {
+         write_bytes_to(folder / "a",
+                        "#?RADIANCE\nEXPOSURE=2\n\n-Y 1 +X 2\n" + std::string(8, '?'));
+       },
+       [](const TempFolder& folder) { return digest(read_picture(folder / "a")); }},
+      {"layers",
+       [](const TempFolder& folder) {
+         ExrImage image(3, 2);
+         for (const char* name : {"a.R", "a.G", "a.B", "b.Z"}) {
+           image.add(name, std::vector<float>(6, 0.5f));
+         }
+         write_exr(folder / "a", image);
+       },
+       [](const TempFolder& folder) { return digest(read_picture(folder / "a")); }},
       {"scene",
        [](const TempFolder& folder) {
          write_bytes_to(folder / "scene.xml", mesh_scene);

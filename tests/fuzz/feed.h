@@ -15,6 +15,9 @@ namespace quartet {
 void feed_scene(std::string_view input);
 void feed_obj(std::string_view input);
 void feed_exr(std::string_view input);
+void feed_png(std::string_view input);
+void feed_pfm(std::string_view input);
+void feed_hdr(std::string_view input);
 void feed_reference(std::string_view input);
 void feed_settings(std::string_view input);
 void feed_words(std::string_view input);

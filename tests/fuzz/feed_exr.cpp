@@ -4,6 +4,7 @@
 #include "renderer/measure/reference.h"
 #include "tests/fuzz/feed.h"
 #include "tests/fuzz/mesh_promises.h"
+#include "tests/fuzz/picture_promises.h"
 
 namespace quartet {
 namespace {
@@ -29,6 +30,7 @@ void feed_exr(std::string_view input) {
     promise(radiance.width() == image.display.width && radiance.height() == image.display.height,
             "a picture is not of the size that is shown");
   });
+  promise_picture(path, "picture.exr");
   succeeds<std::runtime_error>("picture.exr", [&] {
     const std::shared_ptr<const Reference> reference = load_reference(path);
     for (const glm::vec3& pixel : reference->image.pixels()) {

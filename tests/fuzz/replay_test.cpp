@@ -32,7 +32,9 @@ TEST_P(FuzzCorpus, IsReadOrRefused) {
 INSTANTIATE_TEST_SUITE_P(
     Readers, FuzzCorpus,
     testing::Values(CorpusReader{"scene", feed_scene}, CorpusReader{"obj", feed_obj},
-                    CorpusReader{"exr", feed_exr}, CorpusReader{"reference", feed_reference},
+                    CorpusReader{"exr", feed_exr}, CorpusReader{"png", feed_png},
+                    CorpusReader{"pfm", feed_pfm}, CorpusReader{"hdr", feed_hdr},
+                    CorpusReader{"reference", feed_reference},
                     CorpusReader{"settings", feed_settings}, CorpusReader{"words", feed_words}),
     [](const auto& reader) { return std::string(reader.param.name); });
 
