@@ -9,6 +9,7 @@
 
 #include "renderer/base/interval.h"
 #include "renderer/base/number_text.h"
+#include "renderer/measure/left_out.h"
 
 namespace quartet {
 namespace {
@@ -38,15 +39,27 @@ ColorScale scale_of(const ScalarImage& map, float highest) {
 
 Figure error_figure(const RadianceImage& test, const RadianceImage& reference, const Metric& metric,
                     std::string title, std::string footer) {
-  const ScalarImage map = metric.map(test, reference);
+  const ScalarImage map = map_over_finite(metric, test, reference);
   const float highest = quantile(map, 0.999);
   const ColorScale scale = scale_of(map, highest);
   FigurePanel panel;
   panel.image = DisplayImage(map.width(), map.height());
   apply(map.pixels(), scale, panel.image.pixels());
-  panel.title = fmt::format("{} {}", metric.label, format_number(metric.compute(test, reference)));
+  const LeftOut left_out = left_out_of(test, reference);
+  for (std::size_t i = 0; i < left_out.is_left_out.size(); ++i) {
+    if (left_out.is_left_out[i] != 0) {
+      constexpr std::uint8_t gray = 128;
+      panel.image.pixels()[i] = {gray, gray, gray, 255};
+    }
+  }
+  panel.title = fmt::format("{} {}", metric.label,
+                            format_number(compute_over_finite(metric, test, reference)));
   if (!metric.unit.empty()) {
     panel.title += fmt::format(" {}", metric.unit);
+  }
+  if (left_out.either > 0) {
+    panel.lines.push_back(
+        fmt::format("{} pixels are not finite, and left out (gray)", left_out.either));
   }
   const auto above = std::ranges::count_if(map.pixels(), [&](float v) { return v > highest; });
   if (above > 0) {

@@ -25,6 +25,7 @@ constexpr Metric flip_metric{.key = MetricId::flip,
                                  "mean of LDR-FLIP (Andersson et al. 2020), 67 pixels a "
                                  "degree, radiance cut to [0, 1]",
                              .scale = MetricScale::error,
+                             .looks_around = true,
                              .compute = checked_flip,
                              .map = checked_flip_map,
                              .map_quantity = "LDR-FLIP (0 same, 1 most different)"};
