@@ -29,7 +29,7 @@ struct CalibrateOptions {
   CommonBudget budget;
   std::optional<std::uint32_t> passes;
   std::string error;
-  std::string reference;
+  ReferenceChoice reference;
   std::uint32_t reference_spp = 1024;
   bool json = false;
 };

@@ -21,7 +21,7 @@ struct ClaimsOptions {
   RunOptions run;
   std::uint32_t passes = 15;
   std::uint32_t seeds = 5;
-  std::string reference;
+  ReferenceChoice reference;
   std::uint32_t reference_spp = 512;
   bool json = false;
   std::string csv;

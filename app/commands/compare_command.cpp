@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,9 +12,11 @@
 #include "app/commands/commands.h"
 #include "app/options/usage_error.h"
 #include "app/records/json_text.h"
+#include "app/terminal/messages.h"
 #include "renderer/base/version.h"
-#include "renderer/files/exr.h"
+#include "renderer/files/picture.h"
 #include "renderer/files/staged_files.h"
+#include "renderer/measure/left_out.h"
 #include "renderer/measure/reference.h"
 #include "ui/paper/error_figure.h"
 
@@ -23,22 +27,34 @@ using nlohmann::ordered_json;
 
 struct CompareOptions {
   std::string test;
+  std::string layer;
   std::string reference;
+  std::string reference_layer;
   std::string metric;  ///< empty: relmse
   std::string picture;
   bool json = false;
+  bool strict = false;
 };
 
+/// Two pictures, as far as both have pixels.
 struct CompareResult {
+  int width = 0;  ///< of the whole pictures
+  int height = 0;
   RadianceImage test;
-  std::shared_ptr<const Reference> reference;
+  Reference reference;
+  LeftOut not_finite;
+  std::size_t uncovered = 0;  ///< pixels that a file says nothing of
+  std::vector<std::string> test_notes;
+  std::vector<std::string> reference_notes;
   std::optional<double> seconds;  ///< that the test took, if its header says so
+
+  std::size_t left_out() const { return uncovered + not_finite.either; }
 };
 
-std::optional<double> seconds_of(const ExrImage& exr) {
-  const auto it = exr.attributes.find("seconds");
+std::optional<double> seconds_of(const std::map<std::string, std::string>& attributes) {
+  const auto it = attributes.find("seconds");
   double value = 0.0;
-  if (it == exr.attributes.end()) {
+  if (it == attributes.end()) {
     return std::nullopt;
   }
   const std::string& text = it->second;
@@ -48,32 +64,108 @@ std::optional<double> seconds_of(const ExrImage& exr) {
              : std::nullopt;
 }
 
-CompareResult load(const CompareOptions& options) {
-  const ExrImage exr = read_exr(options.test);
-  CompareResult comparison{radiance_of(exr, options.test), load_reference(options.reference),
-                           seconds_of(exr)};
-  try {
-    require_finite(comparison.test, options.test);
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(error.what());
+/// The pixels from (left, top) of the frame on, of which `image` begins at (from_left, from_top).
+RadianceImage cut(const RadianceImage& image, int from_left, int from_top,
+                  const ExrWindow& window) {
+  RadianceImage result(window.width, window.height);
+  for (int y = 0; y < window.height; ++y) {
+    for (int x = 0; x < window.width; ++x) {
+      result.at(x, y) = image.at(window.x + x - from_left, window.y + y - from_top);
+    }
   }
-  const RadianceImage& reference = comparison.reference->image;
-  if (comparison.test.width() != reference.width() ||
-      comparison.test.height() != reference.height()) {
-    throw std::runtime_error(
-        fmt::format("{} has {}x{} pixels and {} has {}x{}; the same size would be right",
-                    options.test, comparison.test.width(), comparison.test.height(),
-                    options.reference, reference.width(), reference.height()));
-  }
-  return comparison;
+  return result;
 }
 
-glm::dvec3 mean(const RadianceImage& image) {
-  glm::dvec3 sum(0.0);
-  for (const glm::vec3& c : image.pixels()) {
-    sum += glm::dvec3(c);
+ExrWindow common_window(const Picture& a, const Picture& b) {
+  const int left = std::max(a.left, b.left);
+  const int top = std::max(a.top, b.top);
+  const int right = std::min(a.left + a.image.width(), b.left + b.image.width());
+  const int bottom = std::min(a.top + a.image.height(), b.top + b.image.height());
+  return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
+}
+
+/// A reference of ours, or another picture in the same form; `placed` says where it lies.
+Reference read_compared(const CompareOptions& options, Picture& placed) {
+  const std::filesystem::path path = options.reference;
+  if (options.reference_layer.empty()) {
+    if (std::optional<Reference> own = load_own_reference(path)) {
+      placed.width = own->image.width();
+      placed.height = own->image.height();
+      placed.image = own->image;
+      return std::move(*own);
+    }
   }
-  return sum / double(image.size());
+  placed = read_picture(path, {options.reference_layer, "--reference-layer"});
+  Reference reference;
+  reference.path = path;
+  reference.image = placed.image;
+  return reference;
+}
+
+CompareResult load(const CompareOptions& options) {
+  const Picture test = read_picture(options.test, {options.layer, "--layer"});
+  Picture placed;
+  CompareResult result;
+  result.reference = read_compared(options, placed);
+  if (test.width != placed.width || test.height != placed.height) {
+    throw std::runtime_error(fmt::format(
+        "{} has {}x{} pixels and {} has {}x{}; the same size would be right", options.test,
+        test.width, test.height, options.reference, placed.width, placed.height));
+  }
+  const ExrWindow window = common_window(test, placed);
+  if (window.width == 0 || window.height == 0) {
+    throw std::runtime_error(
+        fmt::format("{} and {} cover no pixel both; the same part of the picture would be right",
+                    options.test, options.reference));
+  }
+  result.width = test.width;
+  result.height = test.height;
+  result.test = cut(test.image, test.left, test.top, window);
+  result.reference.image = cut(placed.image, placed.left, placed.top, window);
+  for (RadianceImage& half : result.reference.halves) {
+    if (!half.empty()) {
+      half = cut(half, 0, 0, window);
+    }
+  }
+  result.not_finite = left_out_of(result.test, result.reference.image);
+  result.uncovered = std::size_t(test.width) * std::size_t(test.height) - result.test.size();
+  result.test_notes = test.notes;
+  result.reference_notes = placed.notes;
+  result.seconds = seconds_of(test.attributes);
+  if (result.not_finite.either == result.test.size()) {
+    throw std::runtime_error(
+        fmt::format("no pixel is finite in both {} and {}; one at least "
+                    "would be right",
+                    options.test, options.reference));
+  }
+  return result;
+}
+
+/// "5 of 300 pixels are left out of every number: ...".
+std::string left_out_text(const CompareOptions& options, const CompareResult& comparison) {
+  std::vector<std::string> reasons;
+  const auto add = [&](std::size_t count, const std::string& reason) {
+    if (count > 0) {
+      reasons.push_back(fmt::format("{} {}", count, reason));
+    }
+  };
+  add(comparison.not_finite.test, "NaN or infinite in " + options.test);
+  add(comparison.not_finite.reference, "NaN or infinite in " + options.reference);
+  add(comparison.uncovered, "outside of what both files cover");
+  return fmt::format("{} of {} pixels are left out of every number: {}", comparison.left_out(),
+                     std::size_t(comparison.width) * std::size_t(comparison.height),
+                     fmt::join(reasons, ", "));
+}
+
+/// Of the pixels that count.
+glm::dvec3 mean(const RadianceImage& image, const LeftOut& left_out) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (left_out.is_left_out[i] == 0) {
+      sum += glm::dvec3(image.pixels()[i]);
+    }
+  }
+  return sum / double(image.size() - left_out.either);
 }
 
 /// JSON has no infinity: the decibels of two equal pictures are null.
@@ -86,16 +178,22 @@ ordered_json rgb(glm::dvec3 c) {
 }
 
 ordered_json record_of(const CompareOptions& options, const CompareResult& comparison) {
-  const Reference& reference = *comparison.reference;
+  const Reference& reference = comparison.reference;
   ordered_json json;
   json["test"] = options.test;
   json["reference"] = options.reference;
-  json["width"] = comparison.test.width();
-  json["height"] = comparison.test.height();
-  json["test_mean"] = rgb(mean(comparison.test));
-  json["reference_mean"] = rgb(mean(reference.image));
+  json["width"] = comparison.width;
+  json["height"] = comparison.height;
+  json["test_notes"] = comparison.test_notes;
+  json["reference_notes"] = comparison.reference_notes;
+  json["left_out"] = {{"pixels", comparison.left_out()},
+                      {"test_not_finite", comparison.not_finite.test},
+                      {"reference_not_finite", comparison.not_finite.reference},
+                      {"not_covered", comparison.uncovered}};
+  json["test_mean"] = rgb(mean(comparison.test, comparison.not_finite));
+  json["reference_mean"] = rgb(mean(reference.image, comparison.not_finite));
   for (const Metric& row : metrics()) {
-    json["metrics"][row.id] = number(row.compute(comparison.test, reference.image));
+    json["metrics"][row.id] = number(compute_over_finite(row, comparison.test, reference.image));
     json["noise_floor"][row.id] = number(reference.noise_floor(row.key));
   }
   json["seconds"] = comparison.seconds ? ordered_json(*comparison.seconds) : ordered_json(nullptr);
@@ -107,9 +205,9 @@ ordered_json record_of(const CompareOptions& options, const CompareResult& compa
 }
 
 void print_table(const CompareOptions& options, const CompareResult& comparison) {
-  const Reference& reference = *comparison.reference;
-  fmt::print("{} against {}, {}x{}\n", options.test, options.reference, comparison.test.width(),
-             comparison.test.height());
+  const Reference& reference = comparison.reference;
+  fmt::print("{} against {}, {}x{}\n", options.test, options.reference, comparison.width,
+             comparison.height);
   const bool floors = !std::isnan(reference.noise_floor(MetricId::mse));
   fmt::print("{:<15} {:>12} {:>12}  {:<9} {}\n", "metric", "value", floors ? "noise floor" : "",
              "unit", "definition (x test, r reference)");
@@ -117,18 +215,19 @@ void print_table(const CompareOptions& options, const CompareResult& comparison)
     const std::string floor =
         floors ? fmt::format("{:.6g}", reference.noise_floor(row.key)) : std::string();
     fmt::print("{:<15} {:>12.6g} {:>12}  {:<9} {}\n", row.id,
-               row.compute(comparison.test, reference.image), floor, row.unit, row.definition);
+               compute_over_finite(row, comparison.test, reference.image), floor, row.unit,
+               row.definition);
   }
   if (comparison.seconds) {
-    const double mse = metric(MetricId::mse).compute(comparison.test, reference.image);
+    const double mse = compute_over_finite(metric(MetricId::mse), comparison.test, reference.image);
     fmt::print("{:<15} {:>12.6g} {:>12}  {:<9} 1/(mse · seconds), {:.4g} s\n", "efficiency",
                efficiency(mse, *comparison.seconds), "", "", *comparison.seconds);
   } else {
     fmt::print("{:<15} {:>12} {:>12}  {:<9} the test's header has no seconds\n", "efficiency", "-",
                "", "");
   }
-  const glm::dvec3 x = mean(comparison.test);
-  const glm::dvec3 r = mean(reference.image);
+  const glm::dvec3 x = mean(comparison.test, comparison.not_finite);
+  const glm::dvec3 r = mean(reference.image, comparison.not_finite);
   fmt::print(
       "mean radiance   test {:.6g} {:.6g} {:.6g}, reference {:.6g} {:.6g} {:.6g}, ratio "
       "{:.5f} {:.5f} {:.5f}\n",
@@ -150,10 +249,16 @@ void run_compare(const CompareOptions& options, const Program& program) {
     throw UsageError(fmt::format("--picture: '{}' is no .png", options.picture));
   }
   const CompareResult comparison = load(options);
+  for (const std::string& note : comparison.test_notes) {
+    warn("{}: {}", options.test, note);
+  }
+  for (const std::string& note : comparison.reference_notes) {
+    warn("{}: {}", options.reference, note);
+  }
   if (!picture.empty()) {
     StagedFiles files(picture.parent_path(), {picture.filename().string()});
     const Figure figure = error_figure(
-        comparison.test, comparison.reference->image, row,
+        comparison.test, comparison.reference.image, row,
         fmt::format("{} against {}", std::filesystem::path(options.test).filename().string(),
                     std::filesystem::path(options.reference).filename().string()),
         fmt::format("quartet {} · {}", version(), program.command_line));
@@ -165,6 +270,13 @@ void run_compare(const CompareOptions& options, const Program& program) {
   } else {
     print_table(options, comparison);
   }
+  if (comparison.left_out() > 0) {
+    const std::string text = left_out_text(options, comparison);
+    if (options.strict) {
+      throw std::runtime_error("--strict: " + text);
+    }
+    warn("{}", text);
+  }
 }
 
 }  // namespace
@@ -173,8 +285,16 @@ void add_compare_command(CLI::App& app, const Program& program) {
   CLI::App* command =
       app.add_subcommand("compare", "How far a picture is from a reference, in every metric");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("test", options->test, "An .exr with R, G and B, of any program")->required();
+  command->add_option("test", options->test, "An EXR, PFM, HDR or PNG of any program")->required();
   command->add_option("reference", options->reference, "The same, of the same size")->required();
+  command
+      ->add_option("--layer", options->layer,
+                   "Of the test, an EXR with several of colour, e.g. ViewLayer.Combined")
+      ->type_name("NAME");
+  command->add_option("--reference-layer", options->reference_layer, "The same of the reference")
+      ->type_name("NAME");
+  command->add_flag("--strict", options->strict,
+                    "Fail, after all is printed, if any pixel had to be left out");
   command->add_flag("--json", options->json, "As JSON; numbers that are not finite are null");
   command->add_option("--picture", options->picture, "Write where the error is as a .png");
   command->add_option("--metric", options->metric,
@@ -182,9 +302,14 @@ void add_compare_command(CLI::App& app, const Program& program) {
   command->footer(
       "The noise floor is what a metric would say of a perfect picture, because the reference has\n"
       "noise of its own; references of quartet reference know theirs.\n"
+      "Pixels that are NaN or infinite in either picture, or outside of a cropped one, are left "
+      "out\n"
+      "of every number, and counted. Of an EXR with layers the only one of colour is taken (R G B\n"
+      "without a name first), or luminance alone for all three. PNG is decoded from sRGB.\n"
       "Examples:\n"
       "  quartet compare kl.exr ref.exr\n"
       "  quartet compare kl.exr ref.exr --json\n"
+      "  quartet compare cycles.exr ref.pfm --layer ViewLayer.Combined --strict\n"
       "  quartet compare kl.exr ref.exr --metric flip --picture error.png");
   command->callback([options, &program] { run_compare(*options, program); });
 }

@@ -25,7 +25,7 @@ namespace {
 struct FigureOptions {
   RunOptions run;
   StopOptions stop;
-  std::string reference;
+  ReferenceChoice reference;
   LaneOptions lanes;
   ViewOptions view;
   std::string out;

@@ -29,7 +29,7 @@ struct RenderOptions {
   std::string estimator = "uniform";
   std::vector<float> thresholds;
   StopOptions stop;
-  std::string reference;
+  ReferenceChoice reference;
   std::string output;
 };
 
@@ -71,7 +71,7 @@ void write_output(const std::filesystem::path& path, const Program& program,
 void check_render_output(const RenderOptions& options, const RenderSettings& settings) {
   check_picture_size("--size", settings.width, settings.height, options.output, lane_exr_channels);
   std::error_code ignored;
-  if (std::filesystem::equivalent(options.output, options.reference, ignored)) {
+  if (std::filesystem::equivalent(options.output, options.reference.path, ignored)) {
     throw UsageError(fmt::format("-o: '{}' is the reference, which would be lost", options.output));
   }
 }

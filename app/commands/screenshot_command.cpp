@@ -36,7 +36,7 @@ struct ScreenshotOptions {
   LaneOptions lanes;
   ViewOptions view;
   StopOptions stop;
-  std::string reference;
+  ReferenceChoice reference;
   std::string window = "1600x1000";
   std::optional<float> scale;
   std::string layout = "columns";
@@ -225,7 +225,7 @@ void run_screenshot(const ScreenshotOptions& options) {
   ImGui::GetIO().MousePos = {-1.0f, -1.0f};
   LabDriver driver(std::move(state), offscreen.gl(), [] {});
   if (!options.reference.empty()) {
-    driver.load_reference(options.reference);
+    driver.load_reference(options.reference.path, options.reference.layer);
   }
   const auto draw = [&] {
     ImGui::GetIO().DeltaTime = 1.0f / 60.0f;

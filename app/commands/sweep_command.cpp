@@ -35,7 +35,7 @@ struct SweepOptions {
   std::string range = "0.1:10";
   std::string metric = "relmse";
   StopOptions stop;
-  std::string reference;
+  ReferenceChoice reference;
   std::uint32_t reference_spp = 1024;
   bool verify_time = false;
   std::string out;

@@ -73,11 +73,18 @@ void cache(const ReferenceRender& render, const std::filesystem::path& path,
 
 }  // namespace
 
-void add_reference_option(CLI::App& command, std::string& path) {
+void add_reference_option(CLI::App& command, ReferenceChoice& choice) {
+  CLI::Option* reference =
+      command
+          .add_option("--reference", choice.path,
+                      "What errors are measured against: of quartet reference, or any EXR, PFM, "
+                      "HDR or PNG of this size")
+          ->type_name("REF.exr");
   command
-      .add_option("--reference", path,
-                  "What errors are measured against: of quartet reference, or any EXR of this size")
-      ->type_name("REF.exr");
+      .add_option("--reference-layer", choice.layer,
+                  "Of an EXR with several layers of colour, e.g. ViewLayer.Combined")
+      ->type_name("NAME")
+      ->needs(reference);
 }
 
 CLI::Option* add_reference_spp_option(CLI::App& command, std::uint32_t& spp) {
@@ -86,14 +93,18 @@ CLI::Option* add_reference_spp_option(CLI::App& command, std::uint32_t& spp) {
       ->excludes(command.get_option("--reference"));
 }
 
-std::shared_ptr<const Reference> reference_at(const std::string& path, const Run& run) {
-  if (path.empty()) {
+std::shared_ptr<const Reference> reference_at(const ReferenceChoice& choice, const Run& run) {
+  if (choice.empty()) {
     return nullptr;
   }
-  std::shared_ptr<const Reference> reference = load_reference(path);
+  std::shared_ptr<const Reference> reference = load_reference(choice.path, choice.options());
   check_reference(*reference, run.scene->scene(), run.settings);
+  for (const std::string& note : reference->notes) {
+    warn("{}: {}", choice.path, note);
+  }
   if (!reference->ours()) {
-    warn("{} is no reference of Quartet's: whether it shows this scene could not be checked", path);
+    warn("{} is no reference of Quartet's: whether it shows this scene could not be checked",
+         choice.path);
   }
   return reference;
 }

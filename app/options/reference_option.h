@@ -15,15 +15,24 @@
 
 namespace quartet {
 
-/// Adds --reference REF.exr.
-void add_reference_option(CLI::App& command, std::string& path);
+/// A picture that errors are measured against, as the command line names it.
+struct ReferenceChoice {
+  std::string path;
+  std::string layer;  ///< of an EXR; empty: the only one of colour
+
+  bool empty() const { return path.empty(); }
+  PictureOptions options() const { return {layer, "--reference-layer"}; }
+};
+
+/// Adds --reference PICTURE and --reference-layer.
+void add_reference_option(CLI::App& command, ReferenceChoice& choice);
 /// Adds --reference-spp, of one that is made where none is given, to a command with --reference.
 CLI::Option* add_reference_spp_option(CLI::App& command, std::uint32_t& spp);
 
-/// The reference at `path`, which fits the run. Of one that another program made, whose scene
-/// cannot be checked, a note goes to stderr. Null if the path is empty; throws std::runtime_error
-/// with the reason if it does not fit.
-std::shared_ptr<const Reference> reference_at(const std::string& path, const Run& run);
+/// The reference that was chosen, which fits the run. Of one that another program made, whose scene
+/// cannot be checked, notes go to stderr. Null if none was chosen; throws std::runtime_error with
+/// the reason if it does not fit.
+std::shared_ptr<const Reference> reference_at(const ReferenceChoice& choice, const Run& run);
 
 /// Its picture, which shares its life; null for null.
 std::shared_ptr<const RadianceImage> image_of(const std::shared_ptr<const Reference>& reference);

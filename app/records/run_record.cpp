@@ -91,6 +91,9 @@ ordered_json store_json(const SampleStore& store) {
 ordered_json reference_json(const Reference& reference) {
   ordered_json json;
   json["file"] = reference.path.string();
+  if (!reference.layer.empty()) {
+    json["layer"] = reference.layer;
+  }
   json["spp"] = reference.ours() ? ordered_json(reference.spp) : ordered_json(nullptr);
   for (const Metric& row : metrics()) {
     json["noise_floor"][row.id] = number_json(reference.noise_floor(row.key));

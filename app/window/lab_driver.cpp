@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "app/terminal/home_folder.h"
 #include "renderer/adaptive/memory_need.h"
+#include "renderer/files/picture.h"
 #include "ui/window/pictures/read_out.h"
 
 namespace quartet {
@@ -39,20 +39,17 @@ LabDriver::~LabDriver() {
 }
 
 void LabDriver::drop(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return char(std::tolower(c)); });
-  if (extension == ".exr") {
+  if (is_picture(file)) {
     load_reference(file);
   } else {
     load(file.string());
   }
 }
 
-void LabDriver::load_reference(const std::filesystem::path& file) {
+void LabDriver::load_reference(const std::filesystem::path& file, const std::string& layer) {
   const LabRequest& wanted = window_.state().request;
   if (wanted.store.scene) {
-    ask_for_reference({wanted.store.scene, wanted.store.settings, file, 0});
+    ask_for_reference({wanted.store.scene, wanted.store.settings, file, 0, layer});
   } else {
     window_.say(Message::Kind::error,
                 fmt::format("{}: there is no scene yet that it could belong to", file.string()));
@@ -212,6 +209,14 @@ void LabDriver::keep_reference_current() {
     said_error_ = error;
     if (!error.empty()) {
       window_.say(Message::Kind::error, error);
+    }
+  }
+  const std::shared_ptr<const Reference>& reference = reference_->output.reference;
+  if (reference_->input == reference_request_ && reference != said_of_) {
+    said_of_ = reference;
+    if (reference && !reference->notes.empty()) {
+      window_.say(Message::Kind::notice, fmt::format("{}: {}", reference->path.filename().string(),
+                                                     fmt::join(reference->notes, "; ")));
     }
   }
 }

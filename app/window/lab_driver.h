@@ -35,9 +35,9 @@ class LabDriver {
   LabDriver(const LabDriver&) = delete;
   LabDriver& operator=(const LabDriver&) = delete;
 
-  /// A file that was dropped: a reference if it is an EXR, else a scene.
+  /// A file that was dropped: a reference if it is a picture, else a scene.
   void drop(const std::filesystem::path& file);
-  void load_reference(const std::filesystem::path& file);
+  void load_reference(const std::filesystem::path& file, const std::string& layer = {});
   void load(const std::string& scene, const SceneParameters& parameters = {}) {
     loader_.load(scene, parameters);
   }
@@ -90,7 +90,8 @@ class LabDriver {
   ReferenceTask references_;
   ReferenceRequest asked_reference_;
   std::uint64_t reference_request_ = 0;
-  std::string said_error_;  // of the reference, so that it is said once
+  std::string said_error_;                    // of the reference, so that it is said once
+  std::shared_ptr<const Reference> said_of_;  // whose notes were said
   std::shared_ptr<const ReferenceTask::Answer> reference_;
   EvaluationTask evaluations_;
   EvaluationInput evaluated_;

@@ -31,6 +31,13 @@ bool stage_reference(StagedFiles& files, const Reference* reference, const std::
   if (reference == nullptr || reference->path.empty()) {
     return false;
   }
+  if (!reference->ours()) {
+    // As it was taken, whatever format and layer it came from.
+    ExrImage exr(reference->image.width(), reference->image.height());
+    exr.add_radiance(reference->image);
+    write_exr(files.stage(reference_file), exr);
+    return true;
+  }
   try {
     const ExrImage exr = read_exr(reference->path, stop);
     if (radiance_of(exr, reference->path) != reference->image) {

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "renderer/files/exr.h"
+#include "renderer/files/picture.h"
+#include "renderer/measure/left_out.h"
 #include "renderer/measure/reference_sums.h"
 
 namespace quartet {
@@ -55,6 +57,27 @@ std::string mismatch(const Reference& reference, const Scene& scene,
   return "";
 }
 
+/// An error that leaves pixels out here and there is one of other pixels in each lane and at each
+/// pass, and what an oracle does not know it cannot decide.
+void require_whole(const Picture& picture, const std::filesystem::path& path) {
+  if (picture.uncovered() > 0) {
+    throw std::runtime_error(fmt::format(
+        "{}: {} of its {}x{} pixels are outside of what it covers, {}x{} at ({}, {}); a "
+        "reference with all pixels would be right (quartet compare leaves them out)",
+        path.string(), picture.uncovered(), picture.width, picture.height, picture.image.width(),
+        picture.image.height(), picture.left, picture.top));
+  }
+  const std::size_t count = left_out_of(picture.image, picture.image).either;
+  if (count > 0) {
+    try {
+      require_finite(picture.image, path.string());
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(fmt::format(
+          "{}; so are {} pixels in all (quartet compare leaves them out)", error.what(), count));
+    }
+  }
+}
+
 }  // namespace
 
 std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed) {
@@ -72,23 +95,41 @@ double Reference::noise_floor(MetricId id) const {
   return metric(id).compute(off, image);
 }
 
-std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path,
-                                                const std::stop_token& stop) {
-  const ExrImage exr = read_exr(path, stop);
-  Reference reference;
-  if (const std::optional<ReferenceSums> sums = sums_of(exr, path)) {
-    reference = reference_of(*sums);
-  } else {
-    reference.image = radiance_of(exr, path);
-    reference.settings.width = reference.image.width();
-    reference.settings.height = reference.image.height();
+std::optional<Reference> load_own_reference(const std::filesystem::path& path,
+                                            const std::stop_token& stop) {
+  if (!begins_as_exr(path)) {
+    return std::nullopt;
   }
+  const std::vector<ExrPartHeader> headers = read_exr_headers(path);
+  if (headers.empty() || !holds_sums(headers.front().attributes)) {
+    return std::nullopt;
+  }
+  const std::optional<ReferenceSums> sums = sums_of(read_exr(path, stop), path);
+  if (!sums) {
+    return std::nullopt;  // another file by now
+  }
+  Reference reference = reference_of(*sums);
   reference.path = path;
-  try {
-    require_finite(reference.image, path.string());
-  } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(error.what());
+  return reference;
+}
+
+std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path,
+                                                const PictureOptions& options,
+                                                const std::stop_token& stop) {
+  if (options.layer.empty()) {
+    if (std::optional<Reference> own = load_own_reference(path, stop)) {
+      return std::make_shared<const Reference>(std::move(*own));
+    }
   }
+  Picture picture = read_picture(path, options, stop);
+  require_whole(picture, path);
+  Reference reference;
+  reference.path = path;
+  reference.layer = std::move(picture.layer);
+  reference.notes = std::move(picture.notes);
+  reference.image = std::move(picture.image);
+  reference.settings.width = reference.image.width();
+  reference.settings.height = reference.image.height();
   return std::make_shared<const Reference>(std::move(reference));
 }
 

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "renderer/base/image.h"
+#include "renderer/files/picture.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/scene/scene_hash.h"
 #include "renderer/trace/integrator.h"
@@ -34,6 +37,8 @@ struct Reference {
   RenderSettings settings;     ///< only width and height for a picture of another program
   std::string scene_name;
   std::string scene_hash;  ///< empty for a picture of another program
+  std::string layer;       ///< of the file, that was taken of another program's; may be empty
+  std::vector<std::string> notes;  ///< what was done to another program's picture, a line each
 
   /// Whether it can be said of which scene it is.
   bool ours() const { return !scene_hash.empty(); }
@@ -45,10 +50,17 @@ struct Reference {
   double noise_floor(MetricId id) const;
 };
 
-/// Reads a reference that ReferenceRender wrote, or any EXR with R, G and B. Throws
-/// std::runtime_error that names the path and what is wrong, also where a pixel is not finite, and
-/// Cancelled soon after a stop was asked for.
+/// Reads a reference that ReferenceRender wrote; nothing if the file is another picture. Throws as
+/// below.
+std::optional<Reference> load_own_reference(const std::filesystem::path& path,
+                                            const std::stop_token& stop = {});
+
+/// Reads a reference that ReferenceRender wrote, or any picture that read_picture takes. It is the
+/// truth of every pixel: throws std::runtime_error that names the path and what is wrong, also
+/// where a pixel is missing or not finite (with their count), and Cancelled soon after a stop was
+/// asked for.
 std::shared_ptr<const Reference> load_reference(const std::filesystem::path& path,
+                                                const PictureOptions& options = {},
                                                 const std::stop_token& stop = {});
 
 /// Throws std::runtime_error with the reason if the reference does not show what a run with these

@@ -98,7 +98,8 @@ void Shelf::answer(const ReferenceRequest& request, const std::stop_token& stop,
 }
 
 void Shelf::load(const ReferenceRequest& request, const std::stop_token& stop) {
-  std::shared_ptr<const Reference> loaded = load_reference(request.file, stop);
+  std::shared_ptr<const Reference> loaded =
+      load_reference(request.file, {request.layer, "--reference-layer"}, stop);
   check_reference(*loaded, request.scene->scene(), request.settings);
   status_.reference = std::move(loaded);
 }

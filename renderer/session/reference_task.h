@@ -17,6 +17,7 @@ struct ReferenceRequest {
   RenderSettings settings;     ///< of the experiment that is to be judged
   std::filesystem::path file;  ///< to load; empty: what the cache holds
   std::uint64_t spp = 0;       ///< to compute, at least, onto what the cache holds
+  std::string layer = {};      ///< of the file, an EXR with several of colour
 };
 
 /// Whether a reference of the one shows what a run of the other does.

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "renderer/files/exr.h"
@@ -236,16 +235,13 @@ TEST_F(CompareCommand, WritesWhereTheErrorIs) {
 TEST_F(CompareCommand, SaysWhatCannotBeCompared) {
   write_picture(path("a.exr"), RadianceImage(20, 15, glm::vec3(0.5f)));
   write_picture(path("small.exr"), RadianceImage(10, 15, glm::vec3(0.5f)));
-  RadianceImage bad(20, 15, glm::vec3(0.5f));
-  bad.at(19, 0).g = std::numeric_limits<float>::quiet_NaN();
-  write_picture(path("nan.exr"), bad);
   ExrImage cropped(20, 15);
   cropped.add_radiance(RadianceImage(20, 15, glm::vec3(0.5f)));
   cropped.display = {0, 0, 21, 15};
   write_exr(path("cropped.exr"), cropped);
-  ExrImage gray(20, 15);
-  gray.add("Y", std::vector<float>(300, 0.5f));
-  write_exr(path("gray.exr"), gray);
+  ExrImage depth(20, 15);
+  depth.add("Z", std::vector<float>(300, 0.5f));
+  write_exr(path("depth.exr"), depth);
   const auto expect_failure = [&](const std::string& test, const std::string& truth,
                                   const std::vector<std::string>& parts) {
     const std::string picture = path("error.png");
@@ -259,10 +255,8 @@ TEST_F(CompareCommand, SaysWhatCannotBeCompared) {
     EXPECT_FALSE(std::filesystem::exists(picture));
   };
   expect_failure("small.exr", "a.exr", {"small.exr has 10x15", "a.exr has 20x15"});
-  expect_failure("nan.exr", "a.exr", {"nan.exr", "(19, 0)"});
-  expect_failure("a.exr", "nan.exr", {"nan.exr", "(19, 0)"});
   expect_failure("cropped.exr", "a.exr", {"cropped.exr", "20x15", "21x15"});
-  expect_failure("gray.exr", "a.exr", {"gray.exr", "there are: Y"});
+  expect_failure("depth.exr", "a.exr", {"depth.exr", "its layers: unnamed (Z)"});
   expect_failure("a.exr", "none.exr", {"none.exr"});
   expect_usage_error({"compare", path("a.exr"), path("a.exr"), "--metric", "ssim"},
                      "there are: mse, rmse");

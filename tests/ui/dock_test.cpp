@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "renderer/files/exr.h"
+#include "renderer/files/png.h"
 #include "tests/files/temp_folder.h"
 #include "tests/session/true_errors.h"
 #include "tests/ui/lab_hand.h"
@@ -136,6 +137,20 @@ TEST(Dock, TrueErrorIsAView) {
   hand.frames(3);
   EXPECT_NE(hand.pixels("lane0.slot1"), before);
   EXPECT_TRUE(hand.has("lane0.slot1.key")) << "a colour bar";
+}
+
+TEST(Dock, ADroppedPictureOfAnyFormatIsAReferenceAndSaysWhatWasDoneToIt) {
+  const TempFolder folder;
+  write_png(folder / "photo", DisplayImage(96, 54, Rgba8{255, 255, 255, 255}));
+  MeasuredHand hand;
+  hand.driver().drop(folder / "photo");
+  hand.frame();
+  hand.settle();
+  ASSERT_TRUE(hand.state().request.lanes.reference);
+  EXPECT_EQ(hand.state().request.lanes.reference->at(95, 53), glm::vec3(1.0f));
+  EXPECT_EQ(hand.window().message().kind, Message::Kind::notice);
+  EXPECT_NE(hand.window().message().text.find("photo: it is display-referred"), std::string::npos)
+      << hand.window().message().text;
 }
 
 TEST(Dock, ARefusedReferenceIsNamedWithItsReasonAndTheOldOneStays) {

@@ -139,7 +139,7 @@ constexpr std::array mice{
     MouseRow{"Ctrl + wheel", "camera nearer, farther"},
     MouseRow{"drag the line in a plot", "move the threshold"},
     MouseRow{"double click on a number", "type it"},
-    MouseRow{"drop a file", "load that scene; an .exr is a reference"},
+    MouseRow{"drop a file", "load that scene; a picture is a reference"},
 };
 
 }  // namespace
