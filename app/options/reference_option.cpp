@@ -156,8 +156,7 @@ bool run_reference(ReferenceRender& render, const ReferenceGoal& goal, int threa
 
 std::shared_ptr<const Reference> reference_for(const Run& run, std::uint64_t spp,
                                                const std::string& command_line) {
-  RenderSettings settings = run.settings;
-  settings.seed = reference_seed;
+  const RenderSettings settings = reference_settings(run.scene->scene(), run.settings);
   ReferenceRender render(run.scene, settings);
   check_reference(*render.reference(), run.scene->scene(), run.settings);
   const std::filesystem::path folder = reference_cache_folder();

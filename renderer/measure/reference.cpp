@@ -48,7 +48,7 @@ std::string mismatch(const Reference& reference, const Scene& scene,
                        depth_text(settings.max_depth));
   }
   const auto seeds = half_seeds(made.seed);
-  if (std::ranges::find(seeds, settings.seed) != seeds.end()) {
+  if (made.sampler == settings.sampler && std::ranges::find(seeds, settings.seed) != seeds.end()) {
     return fmt::format(
         "it is made of the same random numbers as the run, seed {}, and would call their noise "
         "right",
@@ -79,6 +79,12 @@ void require_whole(const Picture& picture, const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+RenderSettings reference_settings(const Scene& scene, RenderSettings run) {
+  run.seed = reference_seed;
+  run.sampler = sampler_for(scene, SamplerId::sobol);
+  return run;
+}
 
 std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed) {
   return {seed, seed ^ 0x9e3779b97f4a7c15u};

@@ -21,6 +21,11 @@ namespace quartet {
 /// of the samples that it judges would call their noise right.
 inline constexpr std::uint64_t reference_seed = 0x5265666572656e63;  // "Referenc"
 
+/// The settings of the reference that is made for a run: its seed is that of references, and its
+/// sampler the one with least noise, whatever the run's. All samplers have the same mean, and are
+/// best compared with the same truth.
+RenderSettings reference_settings(const Scene& scene, RenderSettings run);
+
 /// The seeds of the two halves of a reference.
 std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed);
 
@@ -65,7 +70,8 @@ std::shared_ptr<const Reference> load_reference(const std::filesystem::path& pat
 
 /// Throws std::runtime_error with the reason if the reference does not show what a run with these
 /// settings renders (scene, size, camera, depth), or is made of the same random numbers. Of another
-/// program's picture only the size is known. The integrator may differ: all have the same mean.
+/// program's picture only the size is known. Integrator and sampler may differ: all have the same
+/// mean.
 void check_reference(const Reference& reference, const Scene& scene,
                      const RenderSettings& settings);
 

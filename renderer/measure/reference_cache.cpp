@@ -47,9 +47,12 @@ std::filesystem::path reference_cache_folder() {
 
 std::filesystem::path cached_reference_path(const std::filesystem::path& folder, const Scene& scene,
                                             const RenderSettings& settings) {
-  const std::string key =
-      fmt::format("{} {} {} {}", scene_hash(scene), camera_text(settings.camera),
-                  settings.max_depth, integrator(settings.integrator).id);
+  std::string key = fmt::format("{} {} {} {}", scene_hash(scene), camera_text(settings.camera),
+                                settings.max_depth, integrator(settings.integrator).id);
+  // That of sobol is as it was before there were others, and what was cached then still fits.
+  if (settings.sampler != SamplerId::sobol) {
+    key += fmt::format(" {}", sampler_row(settings.sampler).id);
+  }
   return folder / fmt::format("{}-{}x{}-{:016x}.exr", scene.name, settings.width, settings.height,
                               hash_of(key));
 }

@@ -140,6 +140,10 @@ void ReferenceRender::resume(ReferenceSums sums, const std::filesystem::path& pa
     refuse(fmt::format("it was made with {}, not {}", integrator(made.integrator).id,
                        integrator(wanted.integrator).id));
   }
+  if (made.sampler != wanted.sampler) {
+    refuse(fmt::format("it was made with the sampler {}, not {}", sampler_row(made.sampler).id,
+                       sampler_row(wanted.sampler).id));
+  }
   if (made.seed != wanted.seed) {
     refuse(fmt::format("it was made with seed {}, not {}", made.seed, wanted.seed));
   }

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "renderer/base/version.h"
+#include "renderer/scene/synthetic.h"
 
 namespace quartet {
 
@@ -251,6 +252,15 @@ void check_pixels(const Header& header, const ReferenceSums& sums) {
   }
 }
 
+/// Files of before there was a choice do not name it: all scenes that are traced had the first.
+SamplerId sampler_of(const ExrImage& exr, const std::string& scene_name) {
+  const auto named = exr.attributes.find("sampler");
+  if (named != exr.attributes.end()) {
+    return find_sampler(named->second).key;
+  }
+  return is_synthetic_name(scene_name) ? SamplerId::independent : SamplerId::sobol;
+}
+
 }  // namespace
 
 Reference reference_of(const ReferenceSums& sums) {
@@ -298,6 +308,7 @@ ExrImage exr_of(const ReferenceSums& sums, const std::string& command_line) {
       {"sceneHash", sums.scene_hash},
       {"camera", text_of(settings.camera)},
       {"integrator", std::string(integrator(settings.integrator).id)},
+      {"sampler", std::string(sampler_row(settings.sampler).id)},
       {"maxDepth",
        std::to_string(settings.max_depth == std::numeric_limits<int>::max() ? -1
                                                                             : settings.max_depth)},
@@ -335,6 +346,7 @@ std::optional<ReferenceSums> sums_of(const ExrImage& exr, const std::filesystem:
   settings.max_depth = depth < 0 ? std::numeric_limits<int>::max() : depth;
   try {
     settings.integrator = find_integrator(header.text("integrator")).key;
+    settings.sampler = sampler_of(exr, sums.scene_name);
   } catch (const std::invalid_argument& error) {
     header.fail(error.what());
   }

@@ -104,9 +104,13 @@ Scene synthetic_scene(const Synthetic& row) {
   return scene;
 }
 
+bool is_synthetic_name(std::string_view name) {
+  return name.starts_with(prefix);
+}
+
 const Synthetic* synthetic_of(const Scene& scene) {
   const std::string& path = scene.path.native();
-  return path.starts_with(prefix) ? &find_synthetic(path.substr(prefix.size())) : nullptr;
+  return is_synthetic_name(path) ? &find_synthetic(path.substr(prefix.size())) : nullptr;
 }
 
 }  // namespace quartet

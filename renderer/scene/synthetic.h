@@ -33,6 +33,9 @@ void draw_synthetic(const Synthetic& row, std::uint64_t seed, int x, int y, std:
 /// path, which says where a scene comes from.
 Scene synthetic_scene(const Synthetic& row);
 
+/// Whether a scene of this name is one of those.
+bool is_synthetic_name(std::string_view name);
+
 /// What the samples of a scene are drawn from; null for a scene that is traced.
 const Synthetic* synthetic_of(const Scene& scene);
 

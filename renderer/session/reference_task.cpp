@@ -126,8 +126,7 @@ void Shelf::prepare(const ReferenceRequest& request, const std::stop_token& stop
   const bool same_integrator = made_.settings.integrator == request.settings.integrator;
   if (!making_ || !same_view(made_, request) || !same_integrator) {
     making_.reset();
-    RenderSettings settings = request.settings;
-    settings.seed = reference_seed;
+    const RenderSettings settings = reference_settings(request.scene->scene(), request.settings);
     std::filesystem::path file;
     if (!cache_.empty()) {
       file = cached_reference_path(cache_, request.scene->scene(), settings);
@@ -228,6 +227,7 @@ bool same_view(const ReferenceRequest& a, const ReferenceRequest& b) {
   RenderSettings settings = a.settings;
   settings.seed = b.settings.seed;
   settings.integrator = b.settings.integrator;
+  settings.sampler = b.settings.sampler;
   return a.scene == b.scene && settings == b.settings;
 }
 

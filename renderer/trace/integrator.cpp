@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "renderer/base/table.h"
+#include "renderer/scene/synthetic.h"
 #include "renderer/trace/path_lanes.h"
 
 namespace quartet {
@@ -23,11 +24,16 @@ constexpr std::array table{
 
 }  // namespace
 
+SamplerId sampler_for(const Scene& scene, SamplerId asked) {
+  return synthetic_of(scene) ? SamplerId::independent : asked;
+}
+
 RenderSettings default_settings(const Scene& scene) {
   return {.camera = scene.camera,
           .width = scene.width,
           .height = scene.height,
-          .max_depth = scene.max_depth};
+          .max_depth = scene.max_depth,
+          .sampler = sampler_for(scene, RenderSettings().sampler)};
 }
 
 std::string why_not(const Scene& scene, IntegratorId key) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "renderer/trace/camera_rays.h"
+#include "renderer/trace/sampler_row.h"
 #include "renderer/trace/store/sample_source.h"
 #include "renderer/trace/trace_scene.h"
 
@@ -22,9 +23,14 @@ struct RenderSettings {
   int height = 0;
   int max_depth = std::numeric_limits<int>::max();  ///< segments of a path
   IntegratorId integrator = IntegratorId::mis;
+  SamplerId sampler = SamplerId::sobol;
   std::uint64_t seed = 0;
   bool operator==(const RenderSettings&) const = default;
 };
+
+/// The sampler that is used where this one is asked for: what stands in for a scene draws
+/// independent samples, and knows no other.
+SamplerId sampler_for(const Scene& scene, SamplerId asked);
 
 /// The settings that a scene file asks for.
 RenderSettings default_settings(const Scene& scene);

@@ -110,7 +110,7 @@ class PathQueue {
       skip_empty_jobs();
     }
     if (made_ > 0) {
-      first_.sampler = Sampler8(settings_.seed, pixel, index);
+      first_.sampler = Sampler8(settings_.seed, pixel, index, settings_.sampler);
       first_.ray = camera_.ray(__builtin_convertvector(x, Float8),
                                __builtin_convertvector(y, Float8), first_.sampler.next());
       first_.trace(scene_);

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "renderer/trace/sampler_row.h"
+
 namespace quartet {
 
 /// Random numbers of one sample: a pure function of (seed, pixel, index, vertex, dimension).
@@ -12,6 +14,10 @@ namespace quartet {
 /// Scrambling", JCGT 9(4), 2020, with Vegdahl's constants for the Laine-Karras hash. Each 2^k
 /// aligned samples of a pixel are a (0, k, 2)-net in every pair; pairs, pixels and seeds are
 /// independent.
+///
+/// That is SamplerId::sobol. The other samplers are the same sequences put to another use, told by
+/// the constructor alone: replicated takes samples in turn from some that are scrambled apart, and
+/// independent takes but the first point of as many as there are samples.
 class Sampler {
  public:
   static constexpr int draws_per_call = 4;
@@ -20,8 +26,10 @@ class Sampler {
   /// so are the last two.
   using Draws = float[draws_per_call];
 
-  Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index)
-      : key_(pixel_key(seed_key(seed), pixel)), reversed_index_(reverse_bits(index)) {}
+  Sampler(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index,
+          SamplerId id = SamplerId::sobol)
+      : key_(sequence_key(id, child_key(seed_key(seed), pixel), index)),
+        reversed_index_(reverse_bits(index_in_sequence(id, index))) {}
 
   /// The numbers of the next vertex; the first call is the camera's. Valid until the next call.
   const Draws& next() {
@@ -60,11 +68,41 @@ class Sampler {
     return mix(std::uint32_t(seed) ^ mix(std::uint32_t(seed >> 32) + 0x68bc21ebu));
   }
 
-  /// The seed enters twice: once alone, two seeds would now and then give the same picture of
-  /// noise, some pixels apart.
+  /// The key of a seed's pixel, or of a pixel's sequence; for one parent, no two children have the
+  /// same. The parent enters twice: once alone, two seeds would now and then give the same picture
+  /// of noise, some pixels apart.
+  template <class Parent, class Word>
+  static constexpr Word child_key(Parent parent, Word child) {
+    return mix(mix(parent + child * 0x9e3779b9u) + parent);
+  }
+
+  /// The key of the sequence that a pixel's sample is taken from.
   template <class Word>
-  static constexpr Word pixel_key(std::uint32_t seed, Word pixel) {
-    return mix(mix(seed + pixel * 0x9e3779b9u) + seed);
+  static constexpr Word sequence_key(SamplerId id, Word pixel_key, Word index) {
+    switch (id) {
+      case SamplerId::sobol:
+        break;
+      case SamplerId::independent:
+        return child_key(pixel_key, index);
+      case SamplerId::replicated:
+        // From the other end, or four samples would be the independent ones.
+        return child_key(pixel_key, ~(index & (sampler_replicates - 1u)));
+    }
+    return pixel_key;
+  }
+
+  /// The point of that sequence that it is.
+  template <class Word>
+  static constexpr Word index_in_sequence(SamplerId id, Word index) {
+    switch (id) {
+      case SamplerId::sobol:
+        break;
+      case SamplerId::independent:
+        return Word{};
+      case SamplerId::replicated:
+        return index >> replicate_bits;
+    }
+    return index;
   }
 
   /// Each bit flipped by a hash of the bits below it: Owen scrambling of a bit-reversed number.

@@ -14,9 +14,9 @@ class Sampler8 {
   };
 
   Sampler8() = default;
-  Sampler8(std::uint64_t seed, Word8 pixel, Word8 index)
-      : key_(Sampler::pixel_key(Sampler::seed_key(seed), pixel)),
-        reversed_index_(Sampler::reverse_bits(index)) {}
+  Sampler8(std::uint64_t seed, Word8 pixel, Word8 index, SamplerId id = SamplerId::sobol)
+      : key_(Sampler::sequence_key(id, Sampler::child_key(Sampler::seed_key(seed), pixel), index)),
+        reversed_index_(Sampler::reverse_bits(Sampler::index_in_sequence(id, index))) {}
 
   /// Lane `from` of another.
   void take(int lane, const Sampler8& other, int from) {

@@ -30,6 +30,8 @@ TEST(ReferenceCache, EachThingThatSamplesDependOnButTheSeedHasAFileOfItsOwn) {
   EXPECT_TRUE(changed([](RenderSettings& s) { s.height += 1; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.max_depth = 3; }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.integrator = IntegratorId::kajiya; }));
+  EXPECT_TRUE(changed([](RenderSettings& s) { s.sampler = SamplerId::independent; }));
+  EXPECT_TRUE(changed([](RenderSettings& s) { s.sampler = SamplerId::replicated; }));
   EXPECT_TRUE(changed(
       [](RenderSettings& s) { s.camera.origin.x = std::nextafter(s.camera.origin.x, 1e9f); }));
   EXPECT_TRUE(changed([](RenderSettings& s) { s.camera.right = -s.camera.right; }));

@@ -27,6 +27,7 @@ TEST(ReferenceSums, EveryChannelOfItsFileHoldsItsOwnNumber) {
   sums.settings.seed = 77;
   sums.settings.max_depth = 6;
   sums.settings.integrator = IntegratorId::kajiya;
+  sums.settings.sampler = SamplerId::replicated;
   sums.halves[0].sums = {{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}};
   sums.halves[0].rejected = {1, 0};
   sums.halves[1].sums = {{7.0, 8.0, 9.0}, {10.0, 11.0, 12.0}};
@@ -75,11 +76,31 @@ TEST(ReferenceSums, EveryChannelOfItsFileHoldsItsOwnNumber) {
             (std::map<std::string, std::string>{{"scene", "some scene"},
                                                 {"sceneHash", "0123"},
                                                 {"integrator", "kajiya"},
+                                                {"sampler", "replicated"},
                                                 {"maxDepth", "6"},
                                                 {"seed", "77"},
                                                 {"spp", "9"},
                                                 {"seconds", "2.5"},
                                                 {"commandLine", "quartet reference x"}}));
+}
+
+TEST(ReferenceSums, FilesOfBeforeThereWasAChoiceHaveTheSamplerOfThen) {
+  ReferenceSums sums;
+  sums.scene_hash = "0123";
+  sums.spp = 2;
+  sums.settings.width = sums.settings.height = 1;
+  sums.settings.sampler = SamplerId::replicated;
+  for (auto& half : sums.halves) {
+    half = {{glm::dvec3(1.0)}, {0}};
+  }
+  for (const auto& [name, expected] : {std::pair{"cornell-box", SamplerId::sobol},
+                                       {"synthetic:bernoulli", SamplerId::independent}}) {
+    sums.scene_name = name;
+    ExrImage exr = exr_of(sums, "");
+    EXPECT_EQ(sums_of(exr, "x.exr").value().settings.sampler, SamplerId::replicated);
+    EXPECT_EQ(exr.attributes.erase("sampler"), 1u);
+    EXPECT_EQ(sums_of(exr, "x.exr").value().settings.sampler, expected) << name;
+  }
 }
 
 TEST(ReferenceSums, TheSeedsOfItsHalvesDifferFromEachOtherAndFromSeedToSeed) {

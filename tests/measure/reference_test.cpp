@@ -257,6 +257,9 @@ TEST(Reference, FitsItsOwnSceneAndSaysWhyItFitsNoOther) {
   RenderSettings other = run;
   other.integrator = IntegratorId::kajiya;
   EXPECT_EQ(reason(box()->scene(), other), "") << "all integrators have the same mean";
+  other = run;
+  other.sampler = SamplerId::replicated;
+  EXPECT_EQ(reason(box()->scene(), other), "") << "so have all samplers";
   const auto expect_reason = [&](const RenderSettings& of, const std::string& part) {
     const std::string text = reason(box()->scene(), of);
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -275,6 +278,8 @@ TEST(Reference, FitsItsOwnSceneAndSaysWhyItFitsNoOther) {
     other = run;
     other.seed = seed;
     expect_reason(other, "same random numbers");
+    other.sampler = SamplerId::independent;
+    EXPECT_EQ(reason(box()->scene(), other), "") << "of another sampler they are others";
   }
   Scene redder = box()->scene();
   std::get<Diffuse>(redder.materials[0].kind).reflectance.value.r += 1e-6f;
@@ -295,6 +300,9 @@ TEST(Reference, ResumesOnlyWhatItIs) {
   other = settings();
   other.integrator = IntegratorId::kajiya;
   EXPECT_NE(refused(other).find("made with mis, not kajiya"), std::string::npos);
+  other = settings();
+  other.sampler = SamplerId::replicated;
+  EXPECT_NE(refused(other).find("made with the sampler sobol, not replicated"), std::string::npos);
   other = settings();
   other.seed = 5;
   EXPECT_NE(refused(other).find("seed"), std::string::npos);
@@ -369,6 +377,7 @@ TEST(Reference, DamageInItsHeaderIsFound) {
        std::initializer_list<std::pair<std::string, std::string>>{{"spp", "many"},
                                                                   {"camera", "origin 1 2"},
                                                                   {"integrator", "magic"},
+                                                                  {"sampler", "halton"},
                                                                   {"maxDepth", ""},
                                                                   {"maxDepth", "-7"},
                                                                   {"spp", "1"},

@@ -85,6 +85,7 @@ TEST(ReferenceTaskThreads, AnotherViewHasNone) {
   ReferenceRequest seed = request_for(0);
   seed.settings.seed = 5;
   seed.settings.integrator = IntegratorId::kajiya;
+  seed.settings.sampler = SamplerId::independent;
   EXPECT_TRUE(finished_reference(task, seed).reference) << "the truth is the same";
   ReferenceRequest size = request_for(0);
   size.settings.width = 25;

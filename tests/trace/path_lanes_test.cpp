@@ -7,7 +7,7 @@
 #include "tests/trace/test_scenes.h"
 
 // Eight paths at a time are each, to the bit, the path that trace_path makes: on every scene, with
-// every integrator, whatever is asked for together.
+// every integrator and sampler, whatever is asked for together.
 
 namespace quartet {
 namespace {
@@ -28,7 +28,7 @@ struct RayCounter : NoObserver {
 Reference single_path(const TraceScene& scene, const RenderSettings& settings,
                       const CameraRays& camera, int x, int y, std::uint32_t index) {
   const auto pixel = std::uint32_t(y * settings.width + x);
-  Sampler sampler(settings.seed, pixel, index);
+  Sampler sampler(settings.seed, pixel, index, settings.sampler);
   const Ray ray = camera.ray(x, y, sampler.next());
   RayCounter counter;
   const glm::vec3 radiance =
@@ -78,9 +78,11 @@ void expect_single_paths(const TraceScene& scene, RenderSettings settings) {
   for (const Integrator& row : integrators()) {
     settings.integrator = row.key;
     for (const int max_depth : {1, 2, 3, 6, std::numeric_limits<int>::max()}) {
-      SCOPED_TRACE(std::string(row.id) + ", depth " + std::to_string(max_depth));
       settings.max_depth = max_depth;
       ++settings.seed;
+      settings.sampler = samplers()[settings.seed % samplers().size()].key;
+      SCOPED_TRACE(std::string(row.id) + ", depth " + std::to_string(max_depth) + ", " +
+                   std::string(sampler_row(settings.sampler).id));
       const TracedPicture picture = render(scene, settings, 100, 5);
       std::size_t different = 0;
       for (int i = 0; i < settings.width * settings.height; ++i) {

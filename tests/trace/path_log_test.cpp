@@ -28,6 +28,7 @@ TEST(PathLog, GivesTheSampleOfTheRendererToTheBit) {
         const int x = (i * 37 + 5) % settings.width;
         const int y = (i * 53 + 11) % settings.height;
         const auto index = std::uint32_t(i * 7);
+        settings.sampler = samplers()[std::size_t(i) % samplers().size()].key;
         glm::vec3 sample(0.0f);
         row.trace(scene, settings, camera, x, y, index, std::span(&sample, 1));
         const PathLog log = log_path(scene, settings, x, y, index);

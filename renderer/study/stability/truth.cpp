@@ -23,8 +23,7 @@ std::shared_ptr<const Truth> find_truth(std::shared_ptr<const TraceScene> scene,
                                                          glm::vec3(float(row->mean)));
     return truth;
   }
-  RenderSettings own = settings;
-  own.seed = reference_seed;
+  const RenderSettings own = reference_settings(scene->scene(), settings);
   ReferenceRender render(std::move(scene), own);
   while (true) {
     constexpr std::uint32_t step = 128;
