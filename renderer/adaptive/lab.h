@@ -19,6 +19,7 @@ struct LabOptions {
   int threads = 0;                            ///< 0: one a processor
   std::size_t memory = std::size_t(2) << 30;  ///< of the sample stores, bytes
   FilmStatistics statistics;                  ///< beside what the estimators need
+  SamplerId sampler = SamplerId::sobol;       ///< of the sources, for the variance of means
   /// The truth, for estimators that need it; as large as the picture.
   std::shared_ptr<const RadianceImage> reference;
   /// Samples with random numbers of their own, for SampleMode::unbiased; see pilot_source().
@@ -85,7 +86,9 @@ class Lab {
   void check(std::span<const LaneSettings> lane_settings, const RadianceImage* reference) const;
   void make_pilot();
   LaneStores stores() const;
-  LaneInputs lane_inputs() const { return {options_.statistics, options_.reference}; }
+  LaneInputs lane_inputs() const {
+    return {options_.statistics, options_.reference, options_.sampler};
+  }
   bool takes_from(const Lane& lane, const Stream& stream) const;
 
   void advance(std::uint32_t pass);

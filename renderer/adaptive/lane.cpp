@@ -10,11 +10,19 @@
 namespace quartet {
 namespace {
 
+/// What the film keeps by which the estimator judges.
+FilmStatistics needed_statistics(const LaneSettings& settings, const LaneInputs& inputs) {
+  FilmStatistics needs = estimator(settings.estimator).needs;
+  needs.replicated = inputs.sampler == SamplerId::replicated;
+  return needs;
+}
+
 /// What the shown film keeps; a pilot keeps what the estimator needs.
 FilmStatistics shown_statistics(const LaneSettings& settings, const LaneInputs& inputs) {
-  return settings.mode == SampleMode::unbiased
-             ? inputs.statistics
-             : inputs.statistics | estimator(settings.estimator).needs;
+  FilmStatistics statistics = inputs.statistics;
+  statistics.replicated = inputs.sampler == SamplerId::replicated;
+  return settings.mode == SampleMode::unbiased ? statistics
+                                               : statistics | needed_statistics(settings, inputs);
 }
 
 /// Whether this pass is looked up; else the film is made ready to add.
@@ -56,9 +64,9 @@ void Lane::restart(const LaneSettings& settings, const LaneInputs& inputs) {
   if (settings.mode == SampleMode::reuse) {
     pilot_.reset();
   } else if (pilot_) {
-    pilot_->restart(row.needs);
+    pilot_->restart(needed_statistics(settings, inputs));
   } else {
-    pilot_.emplace(film_.width(), film_.height(), row.needs);
+    pilot_.emplace(film_.width(), film_.height(), needed_statistics(settings, inputs));
   }
   error_.clear();
   std::fill(taken_.begin(), taken_.end(), 0u);

@@ -25,6 +25,7 @@ struct LaneInputs {
   FilmStatistics statistics;  ///< of the film that is shown, beside what the estimator needs
   /// The truth, for an estimator that needs it; as large as the picture.
   std::shared_ptr<const RadianceImage> reference;
+  SamplerId sampler = SamplerId::sobol;  ///< of all samples
 };
 
 /// One of the experiments that run side by side: its settings and what came of them. Its state is a

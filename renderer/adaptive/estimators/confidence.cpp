@@ -11,14 +11,18 @@ namespace {
 /// Purgathofer, "A Statistical Method for Adaptive Stochastic Sampling", Computers & Graphics
 /// 11(2), 1987: half the width of the 95 % confidence interval of the mean luminance over that
 /// mean, t(0.975, n − 1) · s / √n / max(L̄, 1e-3). Student's t, because n is small at first; the
-/// floor keeps black pixels from wanting samples for ever.
+/// floor keeps black pixels from wanting samples for ever. Of replicates, the t of as many as there
+/// are, and the variance that their means show in the place of s²/n.
 void estimate_confidence(const EstimatorInput& input, std::span<float> error) {
   constexpr double darkest = 1e-3;
   const Film& film = input.film;
   each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
-    const double deviations = film.spread(Divergence::chi2, i);
-    const double of_mean = std::sqrt(deviations / (double(n - 1) * double(n)));
-    return student_t_975(n - 1) * of_mean / std::max(film.mean_luminance(i), darkest);
+    const auto [squares, freedom] = film.luminance_deviations(i);
+    if (freedom == 0) {
+      return not_judged;
+    }
+    const double of_mean = std::sqrt(squares / (double(freedom) * double(n)));
+    return student_t_975(freedom) * of_mean / std::max(film.mean_luminance(i), darkest);
   });
 }
 
@@ -35,6 +39,8 @@ constexpr Estimator confidence_estimator{
     .default_thresholds = {0.05f, 0.0f, 0.0f},
     .estimate = estimate_confidence,
     .default_policy = PolicyId::batch,
-    .needs = {.chi2 = true}};
+    .needs = {.chi2 = true},
+    .judges_variance = true,
+    .assumes = "independent samples: Student's t of s/√n"};
 
 }  // namespace quartet

@@ -64,6 +64,12 @@ struct Estimator {
   /// Samples between two looks at a pixel, under policies that leave it to the estimator; 0: the
   /// policy's own.
   std::uint16_t look_every = 0;
+  /// Its error is that variance of the mean which the film has (Film::luminance_deviations): right
+  /// under the samplers that know it, and under the others as published, as if samples were
+  /// independent.
+  bool judges_variance = false;
+  /// What its source takes a pixel's samples to be.
+  std::string_view assumes = "any samples: it looks at the means of pixels";
 };
 
 std::span<const Estimator> estimators();

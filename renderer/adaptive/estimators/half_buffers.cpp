@@ -71,7 +71,8 @@ constexpr Estimator half_buffer_estimator{
     .default_thresholds = {0.05f, 0.0f, 0.0f},
     .estimate = estimate_half_buffer,
     .default_policy = PolicyId::converge,
-    .needs = {.half = SampleHalf::alternate}};
+    .needs = {.half = SampleHalf::alternate},
+    .assumes = "any samples whose halves are drawn alike"};
 
 constexpr Estimator cycles_estimator{.key = EstimatorId::cycles,
                                      .id = "cycles",
@@ -85,6 +86,9 @@ constexpr Estimator cycles_estimator{.key = EstimatorId::cycles,
                                      .default_policy = PolicyId::converge,
                                      .needs = {.half = SampleHalf::class_a},
                                      .minimum_samples = cycles_minimum,
-                                     .look_every = 16};
+                                     .look_every = 16,
+                                     .assumes =
+                                         "progressive multi-jittered samples: class A is half of "
+                                         "every four"};
 
 }  // namespace quartet

@@ -7,11 +7,13 @@ namespace {
 
 /// Lee, Redner and Uselton, "Statistically Optimized Sampling for Distributed Ray Tracing",
 /// SIGGRAPH 1985: what the variance of the mean luminance stays below with 95 % confidence, were
-/// samples normally distributed, (n − 1) s² / χ²(0.05, n − 1) / n.
+/// samples normally distributed, (n − 1) s² / χ²(0.05, n − 1) / n. Of replicates the same of what
+/// their means show.
 void estimate_variance(const EstimatorInput& input, std::span<float> error) {
   const Film& film = input.film;
   each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
-    return film.spread(Divergence::chi2, i) / chi_square_05(n - 1) / double(n);
+    const auto [squares, freedom] = film.luminance_deviations(i);
+    return freedom == 0 ? not_judged : squares / chi_square_05(freedom) / double(n);
   });
 }
 
@@ -30,6 +32,8 @@ constexpr Estimator variance_estimator{
     .default_thresholds = {1e-4f, 0.0f, 0.0f},
     .estimate = estimate_variance,
     .default_policy = PolicyId::batch,
-    .needs = {.chi2 = true}};
+    .needs = {.chi2 = true},
+    .judges_variance = true,
+    .assumes = "independent samples, for its χ² test of s²/n; the paper then stratifies them"};
 
 }  // namespace quartet

@@ -48,6 +48,7 @@ FilmStatistics operator|(const FilmStatistics& a, const FilmStatistics& b) {
   both.kl = a.kl || b.kl;
   both.hellinger = a.hellinger || b.hellinger;
   both.half = a.half != SampleHalf::none ? a.half : b.half;
+  both.replicated = a.replicated || b.replicated;
   return both;
 }
 
@@ -71,6 +72,7 @@ void Film::allocate_statistics() {
   allocate(spreads_[std::size_t(Divergence::hellinger)], size(), keep.hellinger);
   allocate(luminances_, size(), keep.chi2 || keep.kl || keep.hellinger);
   allocate(halves_, size(), keep.half != SampleHalf::none);
+  allocate(replicates_, size(), keep.replicated && (keep.variance || keep.chi2));
 }
 
 void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
@@ -95,6 +97,9 @@ void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
     }
     if (!halves_.empty() && is_in_half(statistics_.half, i)) {
       halves_[pixel].add(sample);
+    }
+    if (!replicates_.empty()) {
+      replicates_[pixel].add(i, glm::dvec3(sample));
     }
     running.add(sample);
   }
@@ -171,8 +176,24 @@ std::uint64_t Film::total_rejected() const {
 
 glm::dvec3 Film::variance_of_mean(std::size_t pixel) const {
   assert(statistics_.variance);
+  if (statistics_.replicated) {
+    return quartet::variance_of_mean(replicates_[pixel]).channels;
+  }
   const double n = counts_[pixel];
   return n < 2.0 ? glm::dvec3(0.0) : deviations_[pixel] / ((n - 1.0) * n);
+}
+
+LuminanceDeviations Film::luminance_deviations(std::size_t pixel) const {
+  assert(statistics_.chi2);
+  const std::uint32_t n = counts_[pixel];
+  if (n < 2) {
+    return {};
+  }
+  if (statistics_.replicated) {
+    const MeanVariance variance = quartet::variance_of_mean(replicates_[pixel]);
+    return {variance.luminance * variance.freedom * n, variance.freedom};
+  }
+  return {spread(Divergence::chi2, pixel), n - 1};
 }
 
 RadianceImage Film::image() const {
@@ -190,7 +211,8 @@ std::size_t Film::bytes() const {
     doubles += plane.size();
   }
   return size() * per_pixel + (sums_.size() + deviations_.size()) * sizeof(glm::dvec3) +
-         doubles * sizeof(double) + halves_.size() * sizeof(RunningMean);
+         doubles * sizeof(double) + halves_.size() * sizeof(RunningMean) +
+         replicates_.size() * sizeof(Replicates);
 }
 
 }  // namespace quartet

@@ -8,6 +8,7 @@
 
 #include "renderer/adaptive/estimators/divergence.h"
 #include "renderer/adaptive/estimators/window_kernel.h"
+#include "renderer/adaptive/film/replicates.h"
 #include "renderer/base/image.h"
 #include "renderer/trace/store/running_mean.h"
 
@@ -36,13 +37,24 @@ struct FilmStatistics {
   bool kl = false;
   bool hellinger = false;
   SampleHalf half = SampleHalf::none;
+  /// Samples are those of SamplerId::replicated: where the variance of the mean is wanted, by
+  /// `variance` or `chi2`, it is taken from the means of the sequences, which are kept for it.
+  bool replicated = false;
 
-  bool any() const { return *this != FilmStatistics{}; }
+  bool any() const { return variance || chi2 || kl || hellinger || half != SampleHalf::none; }
   bool operator==(const FilmStatistics&) const = default;
 };
 
 /// What either asks for. Where both want a half, it must be the same.
 FilmStatistics operator|(const FilmStatistics& a, const FilmStatistics& b);
+
+/// The variance of a pixel's mean luminance, in the shape in which tests know it: it is
+/// squares / (freedom · n) of n samples. Of independent samples, `squares` are their squared
+/// deviations from the mean, and `freedom` is n − 1.
+struct LuminanceDeviations {
+  double squares = 0.0;
+  std::uint32_t freedom = 0;  ///< 0 if the variance is not known
+};
 
 /// The statistics of the samples that each pixel has taken. What the estimators read is planar,
 /// because they run over it in vectors.
@@ -102,9 +114,13 @@ class Film {
   std::span<const std::uint32_t> rejected() const { return rejected_; }
   std::uint64_t total_rejected() const;
 
-  /// Unbiased estimate of the variance of a pixel's mean, a channel: s²/n; 0 below two samples.
-  /// Needs FilmStatistics::variance.
+  /// The variance of a pixel's mean, a channel, as far as its samples tell (SamplerRow::variance):
+  /// from replicates where the film keeps them, else s²/n, which is right of independent samples
+  /// and too high of those of one scrambled sequence. 0 where it is not known, as below two
+  /// samples. Needs FilmStatistics::variance.
   glm::dvec3 variance_of_mean(std::size_t pixel) const;
+  /// The same of the mean luminance, for what judges by it. Needs FilmStatistics::chi2.
+  LuminanceDeviations luminance_deviations(std::size_t pixel) const;
 
   /// Mean of the Rec. 709 luminances of a pixel's samples, exactly theirs where all are equal.
   /// Needs one of chi2, kl and hellinger.
@@ -136,6 +152,7 @@ class Film {
   std::vector<double> luminances_;              // their means
   std::array<std::vector<double>, 3> spreads_;  // by Divergence
   std::vector<RunningMean> halves_;
+  std::vector<Replicates> replicates_;
 };
 
 }  // namespace quartet
