@@ -170,6 +170,7 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
                     const Run& run, const std::string& command_line) {
   nlohmann::ordered_json json;
   json["scene"] = run.scene->scene().name;
+  json["sampler"] = sampler_row(run.settings.sampler).id;
   json["command_line"] = command_line;
   json["budget"] = budget.text();
   json["passes"] = budget.passes;

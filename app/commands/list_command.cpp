@@ -34,7 +34,9 @@ ordered_json tables() {
                                         row.default_thresholds.begin() + row.channels)},
          {"default_source", row.threshold_source},
          {"default_policy", policy(row.default_policy).id},
-         {"needs_reference", row.needs_reference}});
+         {"needs_reference", row.needs_reference},
+         {"assumes", row.assumes},
+         {"judges_variance", row.judges_variance}});
   }
   for (const PolicyRow& row : policies()) {
     json["policies"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
@@ -53,6 +55,13 @@ ordered_json tables() {
     json["integrators"].push_back(
         {{"id", row.id}, {"label", row.label}, {"description", row.description}});
   }
+  for (const SamplerRow& row : samplers()) {
+    json["samplers"].push_back({{"id", row.id},
+                                {"label", row.label},
+                                {"description", row.description},
+                                {"knows_variance", row.knows_variance},
+                                {"variance", row.variance}});
+  }
   for (const ToneMapRow& row : tone_maps()) {
     json["tone_maps"].push_back({{"id", row.id}, {"label", row.label}, {"source", row.source}});
   }
@@ -70,6 +79,16 @@ ordered_json tables() {
   return json;
 }
 
+/// What an estimator that judges by the variance of the mean does under each sampler.
+std::string variance_text() {
+  std::string text = "judges by variance: ";
+  for (const SamplerRow& row : samplers()) {
+    text += fmt::format("{}{} under {}", &row == samplers().data() ? "" : ", ",
+                        row.knows_variance ? "right" : "as published, too wary,", row.id);
+  }
+  return text;
+}
+
 void print_tables() {
   fmt::print("estimators\n");
   for (const Estimator& row : estimators()) {
@@ -78,6 +97,10 @@ void print_tables() {
       fmt::print("  {:<15} default {}, {}; policy {}\n", "",
                  threshold_text(default_settings(row.key)), row.threshold_source,
                  policy(row.default_policy).id);
+      fmt::print("  {:<15} assumes {}\n", "", row.assumes);
+      if (row.judges_variance) {
+        fmt::print("  {:<15} {}\n", "", variance_text());
+      }
     }
   }
   fmt::print("policies\n");
@@ -96,6 +119,11 @@ void print_tables() {
   fmt::print("integrators\n");
   for (const Integrator& row : integrators()) {
     fmt::print("  {:<15} {}\n", row.id, row.description);
+  }
+  fmt::print("samplers, and what each tells of the variance of a pixel's mean\n");
+  for (const SamplerRow& row : samplers()) {
+    fmt::print("  {:<15} {}\n", row.id, row.description);
+    fmt::print("  {:<15} {}\n", "", row.variance);
   }
   fmt::print("tone maps\n");
   for (const ToneMapRow& row : tone_maps()) {
@@ -119,8 +147,8 @@ void print_tables() {
 
 void add_list_command(CLI::App& app, const Program&) {
   CLI::App* command = app.add_subcommand("list",
-                                         "Estimators, policies, modes, metrics, integrators, tone "
-                                         "maps and scenes, with their sources");
+                                         "Estimators, policies, modes, metrics, integrators, "
+                                         "samplers, tone maps and scenes, with their sources");
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "As JSON");
   command->footer("Examples:\n  quartet list\n  quartet list --json");

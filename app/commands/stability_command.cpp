@@ -30,7 +30,7 @@ struct StabilityCommand {
   double target = StabilityOptions().target;
   std::uint32_t truth_spp = StabilityOptions().truth.most_spp;
   double confidence = 0.99;
-  RunOptions run;  // its threads
+  RunOptions run;  // its sampler and threads
   std::string out;
 };
 
@@ -71,6 +71,9 @@ StabilityOptions options_of(const StabilityCommand& command) {
         "--policy: 'vote' never stops sampling, so that no pixel is ever done; choose batch, "
         "converge or two-level");
   }
+  if (!command.run.sampler.empty()) {
+    options.sampler = find_sampler(command.run.sampler).key;
+  }
   options.seeds = command.seeds;
   options.spp = command.spp;
   options.target = command.target;
@@ -92,7 +95,12 @@ void report_rejected(const std::vector<CaseResult>& results) {
       RunOptions options;
       options.scene = result.failure->scene;
       const auto scene = std::make_shared<const TraceScene>(open_scene(options.scene));
-      report_rejected(most, options, scene, default_settings(scene->scene()));
+      RenderSettings settings = default_settings(scene->scene());
+      if (settings.sampler != result.sampler) {
+        options.sampler = sampler_row(result.sampler).id;
+        settings.sampler = result.sampler;
+      }
+      report_rejected(most, options, scene, settings);
     }
   }
 }
@@ -180,6 +188,7 @@ void add_stability_command(CLI::App& app, const Program& program) {
              "At most so many samples per pixel for what is compared with");
   add_number(*command, "--confidence", options->confidence, confidence_range,
              "Of all intervals together, such as 0.99");
+  add_sampler_option(*command, options->run.sampler);
   add_threads_option(*command, options->run);
   add_out_option(*command, options->out);
   command->footer(

@@ -113,7 +113,8 @@ void run_trace(const TraceOptions& options) {
              run.settings.seed);
   if (synthetic_of(scene) == nullptr) {
     const PathLog log = log_path(*run.scene, run.settings, x, y, options.index);
-    fmt::print("{}\n", integrator(run.settings.integrator).id);
+    fmt::print("{}, {}\n", integrator(run.settings.integrator).id,
+               sampler_row(run.settings.sampler).id);
     for (std::size_t i = 0; i < log.vertices.size(); ++i) {
       print_vertex(scene, i + 1, log.vertices[i]);
     }

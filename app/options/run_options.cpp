@@ -49,6 +49,7 @@ void check_traced(const RunOptions& options, const Scene& scene) {
     return;
   }
   const std::string_view given = !options.integrator.empty() ? "--integrator"
+                                 : !options.sampler.empty()  ? "--sampler"
                                  : options.max_depth         ? "--max-depth"
                                  : !options.camera.empty()   ? "--camera"
                                                              : "";
@@ -87,6 +88,9 @@ std::string scene_words(const RunOptions& options) {
   }
   if (options.integrator != plain.integrator) {
     words += " --integrator " + shell_word(options.integrator);
+  }
+  if (options.sampler != plain.sampler) {
+    words += " --sampler " + shell_word(options.sampler);
   }
   if (options.max_depth) {
     words += fmt::format(" --max-depth {}", *options.max_depth);
@@ -127,6 +131,7 @@ void add_scene_options(CLI::App& command, RunOptions& options, const std::string
       ->type_name("WxH");
   command.add_option("--integrator", options.integrator,
                      "How light is found: kajiya or mis, the default");
+  add_sampler_option(command, options.sampler);
   add_number(command, "--max-depth", options.max_depth, {1, 1'000'000},
              "Longest path in segments, 2 is direct light; the scene's own if not given");
   add_number(command, "--seed", options.seed, {0, std::numeric_limits<std::uint64_t>::max()},
@@ -136,6 +141,12 @@ void add_scene_options(CLI::App& command, RunOptions& options, const std::string
               "Another place for the camera: origin, right, up, forward, 3 numbers each; the "
               "window writes it")
       ->expected(12);
+}
+
+void add_sampler_option(CLI::App& command, std::string& sampler) {
+  command.add_option("--sampler", sampler,
+                     "Where random numbers come from: sobol, the default, independent or "
+                     "replicated; see quartet list");
 }
 
 void add_threads_option(CLI::App& command, RunOptions& options) {
@@ -176,6 +187,10 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   const IntegratorId integrator = options.integrator.empty()
                                       ? RenderSettings().integrator
                                       : find_integrator(options.integrator).key;
+  std::optional<SamplerId> sampler;
+  if (!options.sampler.empty()) {
+    sampler = find_sampler(options.sampler).key;
+  }
   Scene scene = open_scene(options.scene, parse_defines(options.defines));
   check_integrator(scene, integrator);
   for (const std::string& warning : scene.warnings) {
@@ -185,6 +200,7 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   Run run;
   run.settings = default_settings(scene);
   run.settings.integrator = integrator;
+  run.settings.sampler = sampler.value_or(run.settings.sampler);
   run.settings.seed = options.seed;
   if (options.max_depth) {
     run.settings.max_depth = *options.max_depth;
@@ -204,6 +220,7 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
   run.lab.threads = usable_threads(options);
   run.lab.memory = std::size_t(options.memory_gib * gib);
   run.lab.statistics.variance = true;
+  run.lab.sampler = run.settings.sampler;
   run.scene = std::make_shared<const TraceScene>(std::move(scene));
   run.lab.pilot_source = pilot_source(run.scene, run.settings);
   return run;

@@ -22,6 +22,7 @@ struct RunOptions {
   std::string size;
   std::string size_name = "--size";
   std::string integrator;  ///< empty: mis
+  std::string sampler;     ///< empty: that of default_settings()
   std::optional<int> max_depth;
   std::uint64_t seed = 0;
   std::vector<float> camera;
@@ -30,11 +31,12 @@ struct RunOptions {
   LaneSettingsOptions lane_settings;
 };
 
-/// Adds those that decide the value of a sample: scene, parameters, size, integrator, depth, seed,
-/// camera.
+/// Adds those that decide the value of a sample: scene, parameters, size, integrator, sampler,
+/// depth, seed, camera.
 void add_scene_options(CLI::App& command, RunOptions& options,
                        const std::string& size_name = "--size");
 
+void add_sampler_option(CLI::App& command, std::string& sampler);
 void add_threads_option(CLI::App& command, RunOptions& options);
 void add_memory_option(CLI::App& command, RunOptions& options);
 

@@ -73,7 +73,8 @@ std::string csv_of(const BiasReport& report) {
   std::string csv(csv_header);
   for (const BiasRuns& runs : report.runs) {
     const std::string lane =
-        fmt::format("{},{},{},{},{}", csv_field(report.run.scene->scene().name),
+        fmt::format("{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
+                    sampler_row(report.run.settings.sampler).id,
                     estimator(runs.settings.estimator).id, policy(runs.settings.policy.kind).id,
                     sample_mode(runs.settings.mode).id, thresholds_text(runs.settings));
     const double pixels = double(runs.difference.size());
@@ -118,6 +119,7 @@ ExrImage exr_of(const BiasReport& report) {
   }
   exr.attributes = {
       {"scene", report.run.scene->scene().name},
+      {"sampler", std::string(sampler_row(report.run.settings.sampler).id)},
       {"version", std::string(version())},
       {"commandLine", report.command_line},
       {"biasMeaning",

@@ -162,10 +162,11 @@ std::string claims_text(const ClaimsReport& report) {
   const std::vector<Quantity> all = quantities(report);
   const std::size_t seeds = report.data.seeds.size();
   std::string text = fmt::format(
-      "{}, {}x{}, {} passes, {} seed{}, 95 % intervals over the seeds{}; reference of {} spp\n\n",
+      "{}, {}x{}, {}, {} passes, {} seed{}, 95 % intervals over the seeds{}; reference of {} "
+      "spp\n\n",
       report.run.scene->scene().name, report.run.settings.width, report.run.settings.height,
-      report.passes, seeds, seeds == 1 ? "" : "s", seeds == 1 ? " (one seed has none)" : "",
-      report.reference_spp);
+      sampler_row(report.run.settings.sampler).id, report.passes, seeds, seeds == 1 ? "" : "s",
+      seeds == 1 ? " (one seed has none)" : "", report.reference_spp);
   add_region_tables(all, text);
   add_totals(all, text);
   for (const Claim& claim : judge_claims(report.data)) {
@@ -185,6 +186,7 @@ std::string claims_json(const ClaimsReport& report) {
   json["scene"] = report.run.scene->scene().name;
   json["width"] = report.run.settings.width;
   json["height"] = report.run.settings.height;
+  json["sampler"] = sampler_row(report.run.settings.sampler).id;
   json["passes"] = report.passes;
   json["seeds"] = report.data.seeds.size();
   json["reference_spp"] = report.reference_spp;
@@ -214,8 +216,9 @@ std::string claims_json(const ClaimsReport& report) {
 }
 
 std::string claims_csv(const ClaimsReport& report) {
-  const std::string scene = csv_field(report.run.scene->scene().name);
-  std::string csv = "scene,criterion,region,pixels,quantity,mean,low,high\n";
+  const std::string scene = fmt::format("{},{}", csv_field(report.run.scene->scene().name),
+                                        sampler_row(report.run.settings.sampler).id);
+  std::string csv = "scene,sampler,criterion,region,pixels,quantity,mean,low,high\n";
   for (const Quantity& each : quantities(report)) {
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       const Interval& value = each.values[c];

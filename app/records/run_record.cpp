@@ -52,6 +52,7 @@ ordered_json settings_json(const RenderSettings& settings) {
   json["width"] = settings.width;
   json["height"] = settings.height;
   json["integrator"] = integrator(settings.integrator).id;
+  json["sampler"] = sampler_row(settings.sampler).id;
   json["max_depth"] = depth_number(settings.max_depth);
   json["seed"] = settings.seed;
   json["camera"] = {{"origin", vector_json(settings.camera.origin)},
@@ -95,6 +96,8 @@ ordered_json reference_json(const Reference& reference) {
     json["layer"] = reference.layer;
   }
   json["spp"] = reference.ours() ? ordered_json(reference.spp) : ordered_json(nullptr);
+  json["sampler"] = reference.ours() ? ordered_json(sampler_row(reference.settings.sampler).id)
+                                     : ordered_json(nullptr);
   for (const Metric& row : metrics()) {
     json["noise_floor"][row.id] = number_json(reference.noise_floor(row.key));
   }
@@ -107,6 +110,7 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
                                                   const Snapshot& snapshot, std::size_t lane,
                                                   const std::string& run) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
+  const SamplerRow& sampler = sampler_row(snapshot.settings.sampler);
   ordered_json settings = settings_json(snapshot.settings);
   settings["lane"] = lane_settings_json(shown.settings);
   settings["passes"] = shown.history.empty() ? 0 : shown.history.back().pass;
@@ -117,7 +121,8 @@ std::map<std::string, std::string> exr_attributes(const std::string& command_lin
       {"version", std::string(version())},
       {"commandLine", command_line},
       {"mode", std::string(sample_mode(shown.settings.mode).id)},
-      {"varianceMeaning", "Variance.*: unbiased estimate of the variance of the pixel mean"},
+      {"sampler", std::string(sampler.id)},
+      {"varianceMeaning", fmt::format("{}.*: {}", sampler.variance_channel, sampler.variance)},
   };
   if (!run.empty()) {
     attributes["run"] = run;
@@ -193,7 +198,8 @@ std::string thresholds_text(const LaneSettings& settings) {
 
 std::string csv_record(const Snapshot& snapshot) {
   std::string csv(csv_header);
-  const std::string scene = csv_field(snapshot.scene->scene().name);
+  const std::string scene = fmt::format("{},{}", csv_field(snapshot.scene->scene().name),
+                                        sampler_row(snapshot.settings.sampler).id);
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     const LaneSettings& settings = lane.settings;

@@ -37,13 +37,13 @@ std::string json_record(const std::string& command_line, const Snapshot& snapsho
 
 /// The first line of every long-form CSV.
 inline constexpr std::string_view csv_header =
-    "scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,metric,"
+    "scene,sampler,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,metric,"
     "value\n";
 /// The thresholds that matter, separated by spaces: no comma inside a CSV field.
 std::string thresholds_text(const LaneSettings& settings);
 
-/// Long form, one row a measurement: scene, estimator, policy, thresholds, seed, pass, seconds,
-/// rays, samples, mean_spp, metric, value. Every pass of every lane; the errors against a
+/// Long form, one row a measurement: scene, sampler, estimator, policy, thresholds, seed, pass,
+/// seconds, rays, samples, mean_spp, metric, value. Every pass of every lane; the errors against a
 /// reference of its last one.
 std::string csv_record(const Snapshot& snapshot);
 

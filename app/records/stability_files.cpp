@@ -17,7 +17,7 @@ std::string_view id_of(Tuning tuning) {
 
 std::string trials_csv(const StabilityOptions& options, std::span<const CaseResult> results) {
   std::string csv =
-      "case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,pass,seconds,rays,"
+      "case,scene,sampler,estimator,policy,mode,tuning,variation,thresholds,seed,pass,seconds,rays,"
       "samples,"
       "mean_spp,metric,value\n";
   for (const CaseResult& result : results) {
@@ -25,13 +25,14 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
       const Outcome& outcome = trial.outcome;
       const double pixels = double(result.width) * double(result.height) *
                             (trial.variation == Variation::resolution ? 4.0 : 1.0);
-      const std::string row = fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.0f},{:.6f}", result.failure->id,
-          result.failure->scene, estimator(trial.settings.estimator).id, policy(options.policy).id,
-          sample_mode(trial.settings.mode).id, id_of(trial.tuning),
-          variations()[std::size_t(trial.variation)].id, thresholds_text(trial.settings),
-          trial.seed, trial.passes, outcome.seconds, outcome.mean_rays * pixels,
-          outcome.mean_spp * pixels, outcome.mean_spp);
+      const std::string row =
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.0f},{:.0f},{:.6f}",
+                      result.failure->id, result.failure->scene, sampler_row(result.sampler).id,
+                      estimator(trial.settings.estimator).id, policy(options.policy).id,
+                      sample_mode(trial.settings.mode).id, id_of(trial.tuning),
+                      variations()[std::size_t(trial.variation)].id,
+                      thresholds_text(trial.settings), trial.seed, trial.passes, outcome.seconds,
+                      outcome.mean_rays * pixels, outcome.mean_spp * pixels, outcome.mean_spp);
       for (const OutcomeColumn& column : outcome_columns()) {
         const double value = outcome.*column.value;
         if (column.id != "seconds" && column.id != "mean_rays" && column.id != "mean_spp" &&
@@ -47,10 +48,11 @@ std::string trials_csv(const StabilityOptions& options, std::span<const CaseResu
 /// Rows "…,metric,value,low,high,p" of one cell.
 void add_cell(std::string& csv, const StabilityOptions& options, const CaseResult& result,
               const Cell& cell) {
-  const std::string row = fmt::format(
-      "{},{},{},{},{},{},{:g},{:g}", cell.failure->id, cell.failure->scene,
-      estimator(cell.settings.estimator).id, policy(options.policy).id, id_of(cell.tuning),
-      thresholds_text(cell.settings), double(result.truth.spp), result.truth.noise);
+  const std::string row =
+      fmt::format("{},{},{},{},{},{},{},{:g},{:g}", cell.failure->id, cell.failure->scene,
+                  sampler_row(result.sampler).id, estimator(cell.settings.estimator).id,
+                  policy(options.policy).id, id_of(cell.tuning), thresholds_text(cell.settings),
+                  double(result.truth.spp), result.truth.noise);
   const auto number = [&](std::string_view metric, double value) {
     csv += fmt::format("{},{},{:.9g},,,\n", row, metric, value);
   };
@@ -87,7 +89,8 @@ void add_cell(std::string& csv, const StabilityOptions& options, const CaseResul
 std::string summary_csv(const StabilityOptions& options, std::span<const CaseResult> results,
                         const StabilitySummary& summary) {
   std::string csv =
-      "case,scene,estimator,policy,tuning,thresholds,truth_spp,truth_noise,metric,value,low,high,"
+      "case,scene,sampler,estimator,policy,tuning,thresholds,truth_spp,truth_noise,metric,value,"
+      "low,high,"
       "p\n";
   for (const Cell& cell : summary.cells) {
     for (const CaseResult& result : results) {
@@ -103,13 +106,13 @@ MatrixFigure matrix_of(const StabilityOptions& options, const StabilitySummary& 
                        const std::string& command_line) {
   MatrixFigure figure;
   figure.title = "How each estimator fails";
-  figure.lines = {
-      fmt::format("Policy {}, {} seeds, mode reuse. A pixel is wrong if its squared relative error "
-                  "(x − r)² / (r² + 0.01) is above {:g}; it may have {:g} samples at most. Each "
-                  "cell is the first verdict of the list whose rule holds, with the number that "
-                  "decided; intervals have {:g} % confidence, all together.",
-                  policy(options.policy).id, options.seeds, options.target,
-                  options.spp * maximum_over_budget, 100.0 * (1.0 - summary.confidence.family))};
+  figure.lines = {fmt::format(
+      "Policy {}, sampler {}, {} seeds, mode reuse. A pixel is wrong if its squared relative error "
+      "(x − r)² / (r² + 0.01) is above {:g}; it may have {:g} samples at most. Each "
+      "cell is the first verdict of the list whose rule holds, with the number that "
+      "decided; intervals have {:g} % confidence, all together.",
+      policy(options.policy).id, sampler_row(options.sampler).id, options.seeds, options.target,
+      options.spp * maximum_over_budget, 100.0 * (1.0 - summary.confidence.family))};
   for (const FailureCase* failure : options.cases) {
     figure.rows.push_back(fmt::format("{} ({})", failure->mode, failure->id));
   }

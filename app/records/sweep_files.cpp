@@ -14,9 +14,10 @@ namespace quartet {
 namespace {
 
 std::string row_head(const SweepReport& report, const LaneSettings& settings, std::uint64_t seed) {
-  return fmt::format("{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
-                     estimator(settings.estimator).id, policy(settings.policy.kind).id,
-                     sample_mode(settings.mode).id, thresholds_text(settings), seed);
+  return fmt::format("{},{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
+                     sampler_row(report.run.settings.sampler).id, estimator(settings.estimator).id,
+                     policy(settings.policy.kind).id, sample_mode(settings.mode).id,
+                     thresholds_text(settings), seed);
 }
 
 std::string measurement_head(const SweepReport& report, const LaneSettings& settings,
@@ -59,10 +60,12 @@ ChartFigure figure_of(const SweepReport& report, std::string title) {
   const SweepPlan& plan = report.plan;
   ChartFigure figure;
   figure.title = report.run.scene->scene().name + " · " + std::move(title);
-  figure.lines = {fmt::format(
-      "{}x{} · each point: thresholds × a factor from {:g} to {:g}, after {} · median of {} seed{}",
-      report.run.settings.width, report.run.settings.height, plan.low, plan.high,
-      stop_text(plan.stop), plan.seeds, plan.seeds == 1 ? "" : "s")};
+  figure.lines = {
+      fmt::format("{}x{} · {} samples · each point: thresholds × a factor from {:g} to {:g}, after "
+                  "{} · median of {} seed{}",
+                  report.run.settings.width, report.run.settings.height,
+                  sampler_row(report.run.settings.sampler).id, plan.low, plan.high,
+                  stop_text(plan.stop), plan.seeds, plan.seeds == 1 ? "" : "s")};
   figure.footer = report.command_line;
   return figure;
 }
@@ -101,7 +104,8 @@ std::string sweep_csv(const SweepReport& report) {
 
 std::string calibration_csv(const SweepReport& report) {
   std::string csv =
-      "scene,estimator,policy,mode,thresholds,seed,estimated_error,true_squared_error,pixels\n";
+      "scene,sampler,estimator,policy,mode,thresholds,seed,estimated_error,true_squared_error,"
+      "pixels\n";
   for (const SweepRun& run : report.result.runs) {
     for (const CalibrationBin& bin : run.quality.calibration) {
       csv += fmt::format("{},{:.6g},{:.6g},{}\n", row_head(report, run.settings, run.seed),

@@ -64,7 +64,8 @@ std::string reproducing_command(const Snapshot& snapshot, const ViewSettings& vi
   // What draws its samples has no paths and no camera, and its command no options for them.
   const Scene& traced = snapshot.scene->scene();
   if (synthetic_of(traced) == nullptr) {
-    command += fmt::format(" --integrator {}", integrator(settings.integrator).id);
+    command += fmt::format(" --integrator {} --sampler {}", integrator(settings.integrator).id,
+                           sampler_row(settings.sampler).id);
     if (settings.max_depth != traced.max_depth) {
       command += fmt::format(" --max-depth {}", settings.max_depth);
     }

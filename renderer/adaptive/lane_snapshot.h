@@ -18,8 +18,8 @@ struct LaneSnapshot {
   std::vector<std::uint32_t> rejected;     ///< of these, a pixel; empty if none was
   /// Raw, in the estimator's unit: its channels × pixels; empty for an estimator without one.
   std::vector<float> error;
-  /// Of the pixel mean: red, green, blue × pixels, in radiance²; the largest float where that is
-  /// less; empty where the films keep none.
+  /// Of the pixel mean as far as the sampler tells it (SamplerRow::variance): red, green, blue ×
+  /// pixels, in radiance²; the largest float where that is less; empty where the films keep none.
   std::vector<float> variance;
   std::vector<PassRecord> history;               ///< see pass_history.h; back() is the current one
   Plan plan;                                     ///< of the next pass

@@ -14,9 +14,10 @@
 namespace quartet {
 
 /// One channel, rows from the top left. Names of ours are stable: R G B (linear, Rec. 709),
-/// SampleCount, Error.<estimator>, Variance.R, Variance.G, Variance.B, SquaredError, Rejected.
-/// Counts that people look at are floats too, exact up to 2^24: OpenImageIO, and so what is built
-/// on it, reads channels of integers as 0. Integers are for what only we read again.
+/// SampleCount, Error.<estimator>, Variance.R, Variance.G, Variance.B (or what sampler_row.h calls
+/// it), SquaredError, Rejected. Counts that people look at are floats too, exact up to 2^24:
+/// OpenImageIO, and so what is built on it, reads channels of integers as 0. Integers are for what
+/// only we read again.
 struct ExrChannel {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> pixels;

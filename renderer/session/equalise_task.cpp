@@ -19,6 +19,7 @@ struct Bench {
       options.threads = request.store.threads;
       options.memory = request.store.memory;
       const RenderSettings& settings = request.store.settings;
+      options.sampler = settings.sampler;
       experiment =
           std::make_unique<Experiment>(sample_source(request.store.scene, settings), settings.width,
                                        settings.height, options, request.reference);

@@ -32,7 +32,7 @@ struct LaneRequest {
   /// Where the lanes shall stand, from 1; or no_end. A higher one: they go on. A lower one: they
   /// replay up to it.
   std::uint32_t pass = 15;
-  /// Snapshots carry the variance of the mean. A change replays all lanes.
+  /// Snapshots carry LaneSnapshot::variance. A change replays all lanes.
   bool variance = false;
   /// The truth, of the size of the pictures; null if there is none, and then no estimator may need
   /// it. With one, snapshots carry each lane's error against it, pass by pass, and a lane of

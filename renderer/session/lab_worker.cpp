@@ -107,6 +107,7 @@ void LabWorker::make_lab() {
   options.threads = request.store.threads;
   options.memory = request.store.memory;
   options.statistics.variance = request.lanes.variance;
+  options.sampler = request.store.settings.sampler;
   options.reference = request.lanes.reference;
   options.pilot_source = watched(pilot_source(request.store.scene, request.store.settings));
   lab_ = std::make_unique<Lab>(watched(sample_source(request.store.scene, request.store.settings)),

@@ -39,7 +39,9 @@ ExrImage lane_exr(const Snapshot& snapshot, std::size_t lane) {
             plane(from.error, c));
   }
   for (std::size_t c = 0; c < from.variance.size() / pixels; ++c) {
-    exr.add(fmt::format("Variance.{}", channel_names[c]), plane(from.variance, c));
+    exr.add(fmt::format("{}.{}", sampler_row(snapshot.settings.sampler).variance_channel,
+                        channel_names[c]),
+            plane(from.variance, c));
   }
   if (snapshot.reference) {
     const ScalarImage map =

@@ -64,7 +64,7 @@ View draw_view(const Snapshot& snapshot, std::size_t lane, ViewKind kind,
     return blank_view(snapshot, reason);
   }
   View view = row.draw(snapshot, lane, settings);
-  if (view.bar) {
+  if (view.bar && view.bar->label.empty()) {
     view.bar->label = row.quantity;
   }
   return view;

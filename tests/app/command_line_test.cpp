@@ -39,6 +39,7 @@ TEST(CommandLine, WrongUsageIsOneLineAndCodeTwo) {
   expect_usage_error(figure({"--passes", "0"}), "--passes");
   expect_usage_error(figure({"--passes", "many"}), "--passes");
   expect_usage_error(figure({"--integrator", "bidir"}), "there are: kajiya, mis");
+  expect_usage_error(figure({"--sampler", "halton"}), "there are: sobol, independent, replicated");
   expect_usage_error(figure({"--policy", "dice"}), "there are: vote");
   expect_usage_error(figure({"--tone-map", "gamma"}), "there are: clamp");
   expect_usage_error(figure({"--heat", "hot"}), "there are: linked, report");
@@ -121,7 +122,7 @@ TEST(CommandLine, FigureWritesAllItsFiles) {
     EXPECT_EQ(exr.attributes.at("seed"), "7");
     const auto& counts = std::get<std::vector<float>>(exr.find("SampleCount")->pixels);
     EXPECT_EQ(*std::ranges::max_element(counts), lane.at("history").back().at("max_spp"));
-    EXPECT_NE(exr.find("Variance.R"), nullptr);
+    EXPECT_NE(exr.find("VarianceIfIndependent.R"), nullptr);
     EXPECT_NE(exr.find("Rejected"), nullptr);
   }
   EXPECT_NE(read_exr(out / "kl.exr").find("Error.kl"), nullptr);
@@ -130,12 +131,13 @@ TEST(CommandLine, FigureWritesAllItsFiles) {
   std::istringstream csv(bytes_of(out / "panels.csv"));
   std::string line;
   std::getline(csv, line);
-  EXPECT_EQ(line,
-            "scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,"
-            "metric,value");
+  EXPECT_EQ(
+      line,
+      "scene,sampler,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,"
+      "metric,value");
   int rows = 0;
   while (std::getline(csv, line)) {
-    EXPECT_EQ(std::ranges::count(line, ','), 12) << line;
+    EXPECT_EQ(std::ranges::count(line, ','), 13) << line;
     ++rows;
   }
   EXPECT_EQ(rows, 4 * 3 * 3);

@@ -28,6 +28,7 @@ TEST(IgnoredOptions, AreRefused) {
   const std::vector<std::string> bias{"bias", "cornell-box", "--out", out};
   const std::vector<Ignored> all{
       {with(synthetic, {"--integrator", "mis"}), "--integrator has no effect"},
+      {with(synthetic, {"--sampler", "independent"}), "--sampler has no effect"},
       {with(synthetic, {"--rays", "10"}), "--rays has no effect"},
       {with(synthetic, {"--max-depth", "3"}), "--max-depth has no effect"},
       {with(synthetic, {"--camera=0,0,0,1,0,0,0,1,0,0,0,1"}), "--camera has no effect"},

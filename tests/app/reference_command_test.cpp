@@ -102,6 +102,8 @@ TEST_F(ReferenceCommand, GoesOnWithNothingElse) {
   expect_refused("a.exr", {"--spp", "4"}, "'cornell-box' as of hash", "furnace");
   expect_refused("a.exr", {"--spp", "4", "--seed", "7"}, "seed");
   expect_refused("a.exr", {"--spp", "4", "--integrator", "kajiya"}, "made with mis, not kajiya");
+  expect_refused("a.exr", {"--spp", "4", "--sampler", "independent"},
+                 "made with the sampler sobol, not independent");
   expect_refused("a.exr", {"--spp", "4", "--max-depth", "3"}, "depth");
   expect_refused("a.exr", {"--spp", "4", "--camera", "0,1,5,1,0,0,0,1,0,0,0,-1"}, "camera");
   write_picture(path("picture.exr"), RadianceImage(20, 15, glm::vec3(0.5f)));

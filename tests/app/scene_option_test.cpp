@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <vector>
 
+#include "renderer/files/exr.h"
+#include "renderer/trace/sampler_row.h"
 #include "tests/app/program.h"
 #include "tests/files/temp_folder.h"
 
@@ -37,6 +40,36 @@ TEST(SceneOptions, AnIntegratorThatWouldMissALightIsRefusedByEveryCommand) {
                        "integrator kajiya cannot find point lights, and the scene 'scene' has 1");
   }
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"scene.xml"});
+}
+
+TEST(SceneOptions, TheSamplerStandsOnWhatIsMadeWithIt) {
+  const TempFolder folder;
+  const auto path = [&](const std::string& name) { return (folder.path() / name).string(); };
+  std::vector<std::vector<float>> reds;
+  for (const SamplerRow& row : samplers()) {
+    SCOPED_TRACE(row.id);
+    const std::string id(row.id);
+    const Result render = run({"render", "furnace", "--size", "6x5", "--spp", "3", "--sampler", id,
+                               "--estimator", "uniform", "-o", path(id + ".exr")});
+    ASSERT_EQ(render.code, 0) << render.error;
+    const ExrImage exr = read_exr(path(id + ".exr"));
+    EXPECT_EQ(exr.attributes.at("sampler"), id);
+    EXPECT_TRUE(exr.attributes.at("varianceMeaning").starts_with(row.variance_channel));
+    ASSERT_TRUE(exr.find(std::string(row.variance_channel) + ".R"));
+    reds.push_back(std::get<std::vector<float>>(exr.find("R")->pixels));
+    const Result reference = run({"reference", "furnace", "--size", "6x5", "--spp", "2",
+                                  "--sampler", id, "-o", path(id + "-ref.exr")});
+    ASSERT_EQ(reference.code, 0) << reference.error;
+    EXPECT_EQ(read_exr(path(id + "-ref.exr")).attributes.at("sampler"), id);
+    const Result trace = run(
+        {"trace", "furnace", "--size", "6x5", "--pixel", "2,2", "--index", "5", "--sampler", id});
+    ASSERT_EQ(trace.code, 0) << trace.error;
+    EXPECT_NE(trace.out.find("mis, " + id), std::string::npos) << trace.out;
+    EXPECT_NE(run({"list"}).out.find("\n  " + id), std::string::npos);
+  }
+  EXPECT_NE(reds[0], reds[1]);
+  EXPECT_NE(reds[0], reds[2]);
+  EXPECT_NE(reds[1], reds[2]);
 }
 
 TEST(SceneOptions, CamerasOutOfRangeAreWrongUsage) {

@@ -121,7 +121,7 @@ TEST_F(StopOptions, EachLaneOfAFigureHasAnEndOfItsOwn) {
     std::istringstream lines(csv);
     std::size_t rows = 0;
     for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("cornell-box," + id + ",") &&
+      if (line.starts_with("cornell-box,sobol," + id + ",") &&
           (line.find(",relmse,") != std::string::npos ||
            line.find(",efficiency,") != std::string::npos)) {
         ++rows;

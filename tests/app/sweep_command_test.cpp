@@ -50,17 +50,18 @@ TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
                                           "calibration.csv", "calibration.png", "calibration.pdf",
                                           "calibration.svg", "quartet-files.txt"}));
   const auto rows = rows_of(bytes_of(folder_.path() / "out" / "sweep.csv"));
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"scene", "estimator", "policy", "mode", "thresholds",
-                                               "seed", "pass", "seconds", "rays", "samples",
-                                               "mean_spp", "metric", "value"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"scene", "sampler", "estimator", "policy", "mode",
+                                               "thresholds", "seed", "pass", "seconds", "rays",
+                                               "samples", "mean_spp", "metric", "value"}));
   std::map<std::string, int> metrics;
   std::set<std::string> seeds;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    ASSERT_EQ(rows[i].size(), 13u) << i;
+    ASSERT_EQ(rows[i].size(), 14u) << i;
     EXPECT_EQ(rows[i][0], "cornell-box");
-    metrics[rows[i][1] + " " + rows[i][11]]++;
-    seeds.insert(rows[i][5]);
-    EXPECT_TRUE(std::isfinite(std::stod(rows[i][12])));
+    EXPECT_EQ(rows[i][1], "sobol");
+    metrics[rows[i][2] + " " + rows[i][12]]++;
+    seeds.insert(rows[i][6]);
+    EXPECT_TRUE(std::isfinite(std::stod(rows[i][13])));
   }
   EXPECT_EQ(seeds, (std::set<std::string>{"0", "1"}));
   for (const std::string name : {"relmse", "mse", "flip", "oracle_distance"}) {
@@ -214,8 +215,8 @@ TEST_F(SweepCommands, ClaimsJudgesEveryFinding) {
   const auto rows = rows_of(bytes_of(csv));
   double share = 0.0;
   for (const auto& row : rows) {
-    ASSERT_EQ(row.size(), 8u);
-    share += row[4] == "share" && row[1] == "kl" ? std::stod(row[5]) : 0.0;
+    ASSERT_EQ(row.size(), 9u);
+    share += row[5] == "share" && row[2] == "kl" ? std::stod(row[6]) : 0.0;
   }
   EXPECT_NEAR(share, 1.0, 1e-6);
   std::vector<std::string> as_json = words;

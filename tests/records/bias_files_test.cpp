@@ -47,15 +47,15 @@ TEST(BiasFiles, EveryColumnAndChannelHoldsItsOwnNumber) {
     write_bias_files(files, report);
     files.commit();
   }
-  const std::string head = run.scene->scene().name + ",kl,converge,";
+  const std::string head = run.scene->scene().name + ",independent,kl,converge,";
   // Each of the three intervals misses with probability 1 − 0.875^(1/3). Of two values t is
   // Cauchy's, and the standard error of their mean half their distance.
   const double rate = 1.0 - std::cbrt(0.875);
   const double half = 0.125 * std::tan(0.5 * M_PI * (1.0 - rate));
   const double p = 1.0 - 2.0 / M_PI * std::atan(0.25 / 0.125);
   std::vector<std::string> expected{
-      "scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,metric,"
-      "value"};
+      "scene,sampler,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,"
+      "metric,value"};
   for (const auto& [mode, first] : {std::tuple{"reuse", 100}, {"unbiased", 200}, {"reuse", 300}}) {
     const std::string lane = head + mode + ",0.25,";
     expected.push_back(fmt::format("{}40,6,{}.000000,{},{},{}.000000,energy_less_uniform,0.125",

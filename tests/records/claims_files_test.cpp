@@ -77,21 +77,23 @@ TEST(ClaimsFiles, EveryColumnHoldsItsOwnNumber) {
   data.pixels[4] = 0;  // a region that the picture does not show
   const std::string csv = claims_csv({run, data, 15, 300, "quartet claims"});
   const auto rows = rows_of(csv);
-  EXPECT_EQ(test::lines_in(csv).front(), "scene,criterion,region,pixels,quantity,mean,low,high");
+  EXPECT_EQ(test::lines_in(csv).front(),
+            "scene,sampler,criterion,region,pixels,quantity,mean,low,high");
   const std::vector<TwoSeeds> expected = expected_quantities(data);
   ASSERT_EQ(rows.size(), 1 + expected.size() * report_criterion_count);
   std::size_t line = 1;
   for (const TwoSeeds& each : expected) {
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       const auto& row = rows[line++];
-      ASSERT_EQ(row.size(), 8u);
+      ASSERT_EQ(row.size(), 9u);
       EXPECT_EQ(row[0], run.scene->scene().name);
-      EXPECT_EQ(row[1], estimator(report_criteria[c]).id);
-      EXPECT_EQ(row[2], each.region);
-      EXPECT_EQ(row[3], std::to_string(each.pixels));
-      EXPECT_EQ(row[4], each.name);
-      SCOPED_TRACE(row[1] + " " + each.region + " " + each.name);
-      expect_same_interval({std::stod(row[5]), std::stod(row[6]), std::stod(row[7])},
+      EXPECT_EQ(row[1], "independent");
+      EXPECT_EQ(row[2], estimator(report_criteria[c]).id);
+      EXPECT_EQ(row[3], each.region);
+      EXPECT_EQ(row[4], std::to_string(each.pixels));
+      EXPECT_EQ(row[5], each.name);
+      SCOPED_TRACE(row[2] + " " + each.region + " " + each.name);
+      expect_same_interval({std::stod(row[6]), std::stod(row[7]), std::stod(row[8])},
                            interval_of(each.values[c], each.geometric));
     }
   }
@@ -105,6 +107,7 @@ TEST(ClaimsFiles, JsonHoldsTheSameAndEveryFinding) {
   EXPECT_EQ(json.at("scene"), run.scene->scene().name);
   EXPECT_EQ(json.at("width"), 2);
   EXPECT_EQ(json.at("height"), 1);
+  EXPECT_EQ(json.at("sampler"), "independent");
   EXPECT_EQ(json.at("passes"), 15);
   EXPECT_EQ(json.at("seeds"), 2);
   EXPECT_EQ(json.at("reference_spp"), 300);

@@ -88,12 +88,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(CsvRecord, HasEveryNumberInItsColumn) {
   Snapshot snapshot = numbered_snapshot();
   const std::string scene = snapshot.scene->scene().name;
-  const std::string contrast = scene + ",contrast,two-level,unbiased,0.5 0.25 0.125,77,";
-  const std::string kl = scene + ",kl,batch,reuse,0.0625,77,";
+  const std::string contrast =
+      scene + ",independent,contrast,two-level,unbiased,0.5 0.25 0.125,77,";
+  const std::string kl = scene + ",independent,kl,batch,reuse,0.0625,77,";
   EXPECT_EQ(lines_of(csv_record(snapshot)),
             (std::vector<std::string>{
-                ("scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,mean_spp,"
-                 "metric,value"),
+                ("scene,sampler,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,"
+                 "mean_spp,metric,value"),
                 contrast + "1,0.500000,31,6,3.000000,max_spp,2",
                 contrast + "1,0.500000,31,6,3.000000,pilot_samples,3",
                 contrast + "1,0.500000,31,6,3.000000,share_not_done,0.500000",
@@ -108,10 +109,10 @@ TEST(CsvRecord, HasEveryNumberInItsColumn) {
   snapshot.reference = numbered_truth();
   std::vector<std::string> errors;
   for (const auto& row : rows_of(csv_record(snapshot))) {
-    if (row[1] == "kl" && row[11].find("spp") == std::string::npos && row[11] != "pilot_samples" &&
-        row[11] != "share_not_done") {
-      EXPECT_EQ(row[6], "3");
-      errors.push_back(row[11] + " " + row[12]);
+    if (row[2] == "kl" && row[12].find("spp") == std::string::npos && row[12] != "pilot_samples" &&
+        row[12] != "share_not_done") {
+      EXPECT_EQ(row[7], "3");
+      errors.push_back(row[12] + " " + row[13]);
     }
   }
   std::vector<std::string> expected;
@@ -136,7 +137,7 @@ TEST(JsonRecord, HasEveryNumberUnderItsName) {
   EXPECT_EQ(record.at("scene"), snapshot.scene->scene().name);
   EXPECT_EQ(record.at("scene_file"), snapshot.scene->scene().path.string());
   EXPECT_EQ(record.at("settings"), json::parse(R"({"width": 2, "height": 1, "integrator": "kajiya",
-      "max_depth": 9, "seed": 77, "camera": {"origin": [1.0, 2.0, 3.0], "right": [0.0, 0.0, 1.0],
+      "sampler": "independent", "max_depth": 9, "seed": 77, "camera": {"origin": [1.0, 2.0, 3.0], "right": [0.0, 0.0, 1.0],
       "up": [0.0, -1.0, 0.0], "forward": [1.0, 0.0, 0.0]}, "filter": "box"})"));
   EXPECT_FALSE(record.contains("threads"));
   EXPECT_FALSE(record.contains("store"));
@@ -212,6 +213,7 @@ TEST(JsonRecord, SaysWhatTheRunTookAndWhatItIsComparedWith) {
   EXPECT_EQ(record.at("pilot_store").at("partial"), true);
   EXPECT_EQ(record.at("reference").at("file"), "some/reference.exr");
   EXPECT_EQ(record.at("reference").at("spp"), 300);
+  EXPECT_EQ(record.at("reference").at("sampler"), "sobol");
   for (const Metric& row : metrics()) {
     EXPECT_DOUBLE_EQ(record.at("reference").at("noise_floor").at(row.id).get<double>(),
                      reference.noise_floor(row.key))
@@ -230,6 +232,8 @@ TEST(ExrAttributes, HaveEveryNumberUnderItsName) {
   EXPECT_EQ(settings.at("lane").at("estimator"), "contrast");
   EXPECT_EQ(settings.at("lane").at("max_spp"), 4321);
   attributes.erase("settings");
+  EXPECT_EQ(attributes.at("varianceMeaning"),
+            "Variance.*: s²/n, an unbiased estimate of the variance of the pixel mean");
   attributes.erase("varianceMeaning");
   EXPECT_EQ(attributes, (std::map<std::string, std::string>{
                             {"scene", snapshot.scene->scene().name},
@@ -237,6 +241,7 @@ TEST(ExrAttributes, HaveEveryNumberUnderItsName) {
                             {"version", std::string(version())},
                             {"commandLine", "quartet render x"},
                             {"mode", "unbiased"},
+                            {"sampler", "independent"},
                             {"seconds", "1.25"},
                             {"rays", "52"},
                             {"samples", "10"},

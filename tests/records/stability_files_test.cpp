@@ -95,13 +95,13 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
     files.commit();
   }
   const std::string usual =
-      "two-valued,failures/two-valued,kl,two-level,default,0.5,512,0.0078125,";
+      "two-valued,failures/two-valued,sobol,kl,two-level,default,0.5,512,0.0078125,";
   const std::string budget =
-      "two-valued,failures/two-valued,kl,two-level,budget,0.25,512,0.0078125,";
+      "two-valued,failures/two-valued,sobol,kl,two-level,budget,0.25,512,0.0078125,";
   test::expect_lines(
       bytes_of(folder / "stability.csv"),
       {
-          ("case,scene,estimator,policy,tuning,thresholds,truth_spp,truth_noise,metric,"
+          ("case,scene,sampler,estimator,policy,tuning,thresholds,truth_spp,truth_noise,metric,"
            "value,low,high,p"),
           usual + "verdict,biased,,,",
           usual + "bias,101,100.75,101.5,0.01",
@@ -168,41 +168,44 @@ TEST(StabilityFiles, EveryColumnHoldsItsOwnNumber) {
       });
   // 50 pixels, and four times as many at twice the resolution.
   const std::string kl =
-      "two-valued,failures/two-valued,kl,two-level,unbiased,budget,exposure,0.25,3,6,101.000000,"
+      "two-valued,failures/"
+      "two-valued,sobol,kl,two-level,unbiased,budget,exposure,0.25,3,6,101.000000,"
       "5750,5000,100.000000,";
   const std::string uniform =
-      "two-valued,failures/two-valued,uniform,two-level,reuse,default,resolution,,4,7,201.000000,"
+      "two-valued,failures/"
+      "two-valued,sobol,uniform,two-level,reuse,default,resolution,,4,7,201.000000,"
       "43000,40000,200.000000,";
-  test::expect_lines(bytes_of(folder / "trials.csv"),
-                     {
-                         ("case,scene,estimator,policy,mode,tuning,variation,thresholds,seed,pass,"
-                          "seconds,rays,samples,mean_spp,metric,value"),
-                         kl + "relmse,102",
-                         kl + "worst,103",
-                         kl + "fireflies,104",
-                         kl + "energy,105",
-                         kl + "region_energy,106",
-                         kl + "done,107",
-                         kl + "never_done,109",
-                         kl + "never_done_cost,110",
-                         kl + "wasted,111",
-                         kl + "off_oracle,112",
-                         kl + "region_spp,113",
-                         kl + "rejected,114",
-                         uniform + "relmse,202",
-                         uniform + "worst,203",
-                         uniform + "fireflies,204",
-                         uniform + "energy,205",
-                         uniform + "region_energy,206",
-                         uniform + "done,207",
-                         uniform + "missed,208",
-                         uniform + "never_done,209",
-                         uniform + "never_done_cost,210",
-                         uniform + "wasted,211",
-                         uniform + "off_oracle,212",
-                         uniform + "region_spp,213",
-                         uniform + "rejected,214",
-                     });
+  test::expect_lines(
+      bytes_of(folder / "trials.csv"),
+      {
+          ("case,scene,sampler,estimator,policy,mode,tuning,variation,thresholds,seed,pass,"
+           "seconds,rays,samples,mean_spp,metric,value"),
+          kl + "relmse,102",
+          kl + "worst,103",
+          kl + "fireflies,104",
+          kl + "energy,105",
+          kl + "region_energy,106",
+          kl + "done,107",
+          kl + "never_done,109",
+          kl + "never_done_cost,110",
+          kl + "wasted,111",
+          kl + "off_oracle,112",
+          kl + "region_spp,113",
+          kl + "rejected,114",
+          uniform + "relmse,202",
+          uniform + "worst,203",
+          uniform + "fireflies,204",
+          uniform + "energy,205",
+          uniform + "region_energy,206",
+          uniform + "done,207",
+          uniform + "missed,208",
+          uniform + "never_done,209",
+          uniform + "never_done_cost,210",
+          uniform + "wasted,211",
+          uniform + "off_oracle,212",
+          uniform + "region_spp,213",
+          uniform + "rejected,214",
+      });
 }
 
 }  // namespace

@@ -41,37 +41,37 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
     result.runs.push_back(each);
   }
   const SweepReport report{run, plan, result, 0.0, 0, "quartet sweep"};
-  const std::string uniform = scene + ",uniform,vote,reuse,,";
-  const std::string kl = scene + ",kl,converge,unbiased,0.25,";
-  test::expect_lines(sweep_csv(report),
-                     {
-                         ("scene,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,"
-                          "mean_spp,metric,value"),
-                         uniform + "40,1,10.500000,14,11,10.250000,mse,12",
-                         uniform + "40,1,10.500000,14,11,10.250000,flip,13",
-                         uniform + "40,2,20.500000,24,21,20.250000,mse,22",
-                         uniform + "40,2,20.500000,24,21,20.250000,flip,23",
-                         uniform + "41,1,30.500000,34,31,30.250000,mse,32",
-                         uniform + "41,1,30.500000,34,31,30.250000,flip,33",
-                         kl + "40,5,40.500000,44,41,40.250000,mse,42",
-                         kl + "40,5,40.500000,44,41,40.250000,flip,43",
-                         kl + "40,5,40.500000,44,41,40.250000,rank_correlation,0.125000",
-                         kl + "40,5,40.500000,44,41,40.250000,false_stops,0.375000",
-                         kl + "40,5,40.500000,44,41,40.250000,oracle_distance,0.750000",
-                         kl + "41,5,50.500000,54,51,50.250000,mse,52",
-                         kl + "41,5,50.500000,54,51,50.250000,flip,53",
-                         kl + "41,5,50.500000,54,51,50.250000,false_stops,0.625000",
-                         kl + "41,5,50.500000,54,51,50.250000,oracle_distance,0.625000",
-                     });
+  const std::string uniform = scene + ",independent,uniform,vote,reuse,,";
+  const std::string kl = scene + ",independent,kl,converge,unbiased,0.25,";
   test::expect_lines(
-      calibration_csv(report),
+      sweep_csv(report),
       {
-          "scene,estimator,policy,mode,thresholds,seed,estimated_error,true_squared_error,pixels",
-          kl + "40,40.1,40.2,100",
-          kl + "40,40.3,40.4,110",
-          kl + "41,41.1,41.2,101",
-          kl + "41,41.3,41.4,111",
+          ("scene,sampler,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,"
+           "mean_spp,metric,value"),
+          uniform + "40,1,10.500000,14,11,10.250000,mse,12",
+          uniform + "40,1,10.500000,14,11,10.250000,flip,13",
+          uniform + "40,2,20.500000,24,21,20.250000,mse,22",
+          uniform + "40,2,20.500000,24,21,20.250000,flip,23",
+          uniform + "41,1,30.500000,34,31,30.250000,mse,32",
+          uniform + "41,1,30.500000,34,31,30.250000,flip,33",
+          kl + "40,5,40.500000,44,41,40.250000,mse,42",
+          kl + "40,5,40.500000,44,41,40.250000,flip,43",
+          kl + "40,5,40.500000,44,41,40.250000,rank_correlation,0.125000",
+          kl + "40,5,40.500000,44,41,40.250000,false_stops,0.375000",
+          kl + "40,5,40.500000,44,41,40.250000,oracle_distance,0.750000",
+          kl + "41,5,50.500000,54,51,50.250000,mse,52",
+          kl + "41,5,50.500000,54,51,50.250000,flip,53",
+          kl + "41,5,50.500000,54,51,50.250000,false_stops,0.625000",
+          kl + "41,5,50.500000,54,51,50.250000,oracle_distance,0.625000",
       });
+  test::expect_lines(calibration_csv(report), {
+                                                  "scene,sampler,estimator,policy,mode,thresholds,"
+                                                  "seed,estimated_error,true_squared_error,pixels",
+                                                  kl + "40,40.1,40.2,100",
+                                                  kl + "40,40.3,40.4,110",
+                                                  kl + "41,41.1,41.2,101",
+                                                  kl + "41,41.3,41.4,111",
+                                              });
 }
 
 }  // namespace

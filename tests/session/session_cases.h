@@ -64,6 +64,7 @@ inline Snapshot headless(const LabRequest& request) {
   LabOptions options;
   options.threads = 1;
   options.statistics.variance = request.lanes.variance;
+  options.sampler = request.store.settings.sampler;
   options.reference = request.lanes.reference;
   options.pilot_source = pilot_source(request.store.scene, request.store.settings);
   Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,

@@ -61,6 +61,10 @@ TEST(SessionThreads, EachKindOfChangeGivesWhatAHeadlessRunDoes) {
     SCOPED_TRACE("variance");
     request.lanes.variance = true;
     expect_as_headless(session, request);
+    // That of replicates, where it is had in another way.
+    request.store.settings.sampler = SamplerId::replicated;
+    expect_as_headless(session, request);
+    request.store.settings.sampler = SamplerId::sobol;
     request.lanes.variance = false;
     expect_as_headless(session, request);
   }

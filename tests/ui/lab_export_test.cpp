@@ -107,7 +107,8 @@ TEST(ReproducingCommand, SaysAllThatIsNotAsItComes) {
   snapshot.lanes[0].settings = default_settings(EstimatorId::kl);
   snapshot.lanes[1].settings = default_settings(EstimatorId::uniform);
   const std::string plain =
-      "quartet figure cornell-checker --passes 13 --size 96x54 --seed 7 --integrator mis";
+      "quartet figure cornell-checker --passes 13 --size 96x54 --seed 7 --integrator mis "
+      "--sampler sobol";
   const std::string lanes = " --lane " + lane_text(snapshot.lanes[0].settings) + " --lane " +
                             lane_text(snapshot.lanes[1].settings);
   EXPECT_EQ(reproducing_command(snapshot, {}, "cornell-checker", "out", {}),

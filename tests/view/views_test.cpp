@@ -43,7 +43,8 @@ TEST(LaneExr, NothingIsInfiniteWhereAFloatHoldsTooLittle) {
   copy_lanes(lab, snapshot);
   snapshot.reference = std::make_shared<const RadianceImage>(3, 2, glm::vec3(0.0f));
   const ExrImage exr = lane_exr(snapshot, 0);
-  for (const char* name : {"Variance.R", "Variance.B", "SquaredError", "Error.variance"}) {
+  for (const char* name :
+       {"VarianceIfIndependent.R", "VarianceIfIndependent.B", "SquaredError", "Error.variance"}) {
     SCOPED_TRACE(name);
     ASSERT_NE(exr.find(name), nullptr);
     const auto& values = std::get<std::vector<float>>(exr.find(name)->pixels);
@@ -354,6 +355,7 @@ TEST(LaneExr, HoldsWhatTheSnapshotKnows) {
   snapshot.lanes[0].taken = {3, 7};
   snapshot.lanes[0].rejected = {0, 2};
   snapshot.lanes[0].variance.assign(6, 0.5f);
+  snapshot.settings.sampler = SamplerId::replicated;
   const ExrImage exr = lane_exr(snapshot, 0);
   for (const char* name : {"R", "G", "B", "Rejected", "Error.contrast.R", "Error.contrast.G",
                            "Error.contrast.B", "Variance.R", "Variance.G", "Variance.B"}) {
@@ -364,6 +366,22 @@ TEST(LaneExr, HoldsWhatTheSnapshotKnows) {
   const ExrImage other = lane_exr(snapshot, 1);
   EXPECT_TRUE(other.find("Error.kl"));
   EXPECT_FALSE(other.find("Variance.R"));
+}
+
+// What one scrambled sequence tells is not the variance of its mean, and no file calls it that.
+TEST(LaneExr, CallsTheVarianceWhatTheSamplerMakesOfIt) {
+  Snapshot snapshot = blank_snapshot(2, 1, two);
+  snapshot.lanes[0].variance.assign(6, 0.5f);
+  for (const SamplerRow& row : samplers()) {
+    SCOPED_TRACE(row.id);
+    snapshot.settings.sampler = row.key;
+    const ExrImage exr = lane_exr(snapshot, 0);
+    EXPECT_EQ(exr.find("Variance.G") != nullptr, row.knows_variance);
+    EXPECT_EQ(exr.find("VarianceIfIndependent.G") != nullptr, !row.knows_variance);
+    const View view = draw_view(snapshot, 0, ViewKind::variance, {});
+    EXPECT_EQ(view.bar.value().label.starts_with("variance of the mean"), row.knows_variance)
+        << view.bar->label;
+  }
 }
 
 TEST(LaneExr, EveryChannelHoldsItsOwnNumbers) {
@@ -392,9 +410,9 @@ TEST(LaneExr, EveryChannelHoldsItsOwnNumbers) {
   EXPECT_EQ(floats("Error.contrast.R"), (Floats{11, 12}));
   EXPECT_EQ(floats("Error.contrast.G"), (Floats{13, 14}));
   EXPECT_EQ(floats("Error.contrast.B"), (Floats{15, 16}));
-  EXPECT_EQ(floats("Variance.R"), (Floats{21, 22}));
-  EXPECT_EQ(floats("Variance.G"), (Floats{23, 24}));
-  EXPECT_EQ(floats("Variance.B"), (Floats{25, 26}));
+  EXPECT_EQ(floats("VarianceIfIndependent.R"), (Floats{21, 22}));
+  EXPECT_EQ(floats("VarianceIfIndependent.G"), (Floats{23, 24}));
+  EXPECT_EQ(floats("VarianceIfIndependent.B"), (Floats{25, 26}));
   EXPECT_EQ(floats("SquaredError"), (Floats{14.0f / 3.0f, 12.0f}));
   EXPECT_EQ(exr.channels.size(), 12u);
   snapshot.lanes[1].error = {31.0f, 32.0f};

@@ -124,8 +124,8 @@ struct LabState {
 /// The four estimators with a threshold, in the order of the table, and the usual views.
 LabState initial_state();
 
-/// Gives the state a scene that was loaded: its camera, its size, its depth. Integrator, seed,
-/// lanes and views stay.
+/// Gives the state a scene that was loaded: its camera, its size, its depth. Integrator,
+/// sampler, seed, lanes and views stay.
 void set_scene(LabState& state, std::shared_ptr<const TraceScene> scene);
 
 }  // namespace quartet

@@ -37,6 +37,18 @@ void draw_integrator(LabFrame& frame, float width) {
   tooltip(frame.ui, std::string(integrator(settings.integrator).description));
 }
 
+void draw_sampler(LabFrame& frame, float width) {
+  RenderSettings& settings = frame.state.request.store.settings;
+  combo(frame.ui, "sampler", std::string(sampler_row(settings.sampler).id), width, [&] {
+    return table_rows(frame.ui, "sampler", samplers(), settings.sampler, &SamplerRow::description);
+  });
+  if (const TraceScene* scene = frame.state.trace_scene()) {
+    settings.sampler = sampler_for(scene->scene(), settings.sampler);
+  }
+  const SamplerRow& row = sampler_row(settings.sampler);
+  tooltip(frame.ui, fmt::format("{}. Variance: {}", row.description, row.variance));
+}
+
 std::string size_text(int width, int height) {
   return fmt::format("{} × {}", width, height);
 }
@@ -208,6 +220,7 @@ std::vector<Item> items(const LabFrame& frame, bool compact) {
   return {
       {std::max(ui.px(compact ? 80.0f : 140.0f), combo_width(ui, scene_label(state))), draw_scene},
       {combo_width(ui, "kajiya"), draw_integrator},
+      {combo_width(ui, "independent"), draw_sampler},
       {combo_width(ui, size_text(settings.width, settings.height)), draw_size},
       {labelled("seed", ui.px(44.0f)), draw_seed},
       {transport_width(ui), draw_transport, false, true},

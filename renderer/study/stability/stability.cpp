@@ -64,13 +64,15 @@ TrialSetup Study::prepare() {
   setup.failure = options_.cases[index_];
   setup.scene = std::make_shared<const TraceScene>(open_scene(setup.failure->scene));
   setup.settings = default_settings(setup.scene->scene());
+  setup.settings.sampler = sampler_for(setup.scene->scene(), options_.sampler);
   setup.target = options_.target;
   setup.truth = *find_truth(setup.scene, setup.settings, options_.truth, [&](double done) {
     advance(truth_share * done);
     return true;
   });
-  // Seeds that no trial has.
+  // Seeds that no trial has, and samples whose s²/n is the variance of their mean.
   RenderSettings hidden = setup.settings;
+  hidden.sampler = SamplerId::independent;
   hidden.seed = ~reference_seed;
   setup.audit =
       std::make_shared<const Audit>(sample_source(setup.scene, hidden), hidden.width, hidden.height,
@@ -91,6 +93,7 @@ void Study::tune(TrialSetup& setup) {
   settings.seed = ~std::uint64_t(0);
   LabOptions lab;
   lab.threads = 1;
+  lab.sampler = settings.sampler;
   Experiment experiment(sample_source(setup.scene, settings), settings.width, settings.height, lab,
                         setup.truth.image);
   // Every lane of the study ends by itself.
@@ -135,8 +138,8 @@ std::vector<Trial> Study::run_seeds(const TrialSetup& setup) {
 CaseResult Study::run(std::size_t index) {
   index_ = index;
   const TrialSetup setup = prepare();
-  return {setup.failure, setup.truth, setup.settings.width, setup.settings.height,
-          run_seeds(setup)};
+  return {setup.failure,          setup.truth,     setup.settings.width, setup.settings.height,
+          setup.settings.sampler, run_seeds(setup)};
 }
 
 }  // namespace

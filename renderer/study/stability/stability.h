@@ -11,11 +11,12 @@ namespace quartet {
 
 struct StabilityOptions {
   std::vector<const FailureCase*> cases;
-  std::vector<EstimatorId> estimators;  ///< those with an error; an oracle runs beside them anyway
-  PolicyId policy = PolicyId::batch;    ///< one that comes to an end: not vote
-  std::uint32_t seeds = 12;             ///< at least 2
-  double spp = 16.0;                    ///< the common budget, mean samples a pixel
-  double target = 0.1;                  ///< squared relative error above which a pixel is wrong
+  std::vector<EstimatorId> estimators;   ///< those with an error; an oracle runs beside them anyway
+  PolicyId policy = PolicyId::batch;     ///< one that comes to an end: not vote
+  SamplerId sampler = SamplerId::sobol;  ///< where light is traced
+  std::uint32_t seeds = 12;              ///< at least 2
+  double spp = 16.0;                     ///< the common budget, mean samples a pixel
+  double target = 0.1;                   ///< squared relative error above which a pixel is wrong
   TruthEffort truth;
   std::uint32_t audit_samples = 8192;
   double audit_share = 1.0 / 32.0;
@@ -29,6 +30,7 @@ struct CaseResult {
   const FailureCase* failure = nullptr;
   Truth truth;
   int width = 0, height = 0;
+  SamplerId sampler = SamplerId::sobol;  ///< of the trials
   std::vector<Trial> trials;
 };
 

@@ -92,6 +92,7 @@ bool run_entries(const TrialSetup& setup, const std::vector<Entry>& entries,
                  std::uint64_t seed, const std::stop_token& stop, std::vector<Trial>& trials) {
   LabOptions options;
   options.threads = 1;
+  options.sampler = setup.settings.sampler;
   options.reference = truth.image;
   options.pilot_source = pilot;
   const int width = setup.settings.width;
@@ -167,6 +168,7 @@ bool run_enlarged(const TrialSetup& setup, std::uint64_t seed, const std::stop_t
   settings.height *= 2;
   LabOptions options;
   options.threads = 1;
+  options.sampler = setup.settings.sampler;
   Lab lab(sample_source(setup.scene, settings), settings.width, settings.height,
           settings_of_lanes(entries), options);
   const bool ended = run_lab(lab, stop, [&] { return wants_samples(lab); });

@@ -49,8 +49,12 @@ View draw_variance(const Snapshot& snapshot, std::size_t lane, const ViewSetting
     }
   }
   const double end = std::pow(10.0, last);
+  const bool known = sampler_row(snapshot.settings.sampler).knows_variance;
   return numbers_view(snapshot, shown,
-                      {{end * 1e-6, end, ColorMapId::viridis, Spacing::logarithmic}, "", ""});
+                      {{end * 1e-6, end, ColorMapId::viridis, Spacing::logarithmic},
+                       known ? "variance of the mean, largest channel (radiance²)"
+                             : "s²/n as if samples were independent, largest channel (radiance²)",
+                       ""});
 }
 
 std::vector<std::string> variance_lines(const Snapshot& snapshot, std::size_t lane,
@@ -62,8 +66,8 @@ std::vector<std::string> variance_lines(const Snapshot& snapshot, std::size_t la
 
 constexpr ViewRow variance_view{.key = ViewKind::variance,
                                 .id = "variance",
-                                .label = "Variance of mean",
-                                .quantity = "variance of the mean, largest channel (radiance²)",
+                                .label = "Variance",
+                                .quantity = "variance of the mean, as far as the sampler tells it",
                                 .has_bar = true,
                                 .needs = {.variance = true},
                                 .draw = draw_variance,
