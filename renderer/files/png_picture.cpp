@@ -99,6 +99,27 @@ bool read_png_end(png_structp png, PngReading&) {
   return true;
 }
 
+/// Throws where a chunk claims more than follows: libpng takes memory for it before it looks.
+void check_png_chunks(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t signature = 8;
+  constexpr std::size_t around = 12;  // length, name and checksum
+  for (std::size_t at = signature; at < bytes.size();) {
+    const std::size_t left = bytes.size() - at;
+    if (left < around) {
+      throw std::runtime_error("it ends too early, within a chunk");
+    }
+    const std::size_t length = std::size_t(bytes[at]) << 24 | std::size_t(bytes[at + 1]) << 16 |
+                               std::size_t(bytes[at + 2]) << 8 | bytes[at + 3];
+    if (length > left - around) {
+      throw std::runtime_error(
+          fmt::format("it ends too early: a chunk at byte {} claims {} bytes, and {} follow", at,
+                      length, left - around));
+    }
+    const bool last = std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0;
+    at = last ? bytes.size() : at + around + length;
+  }
+}
+
 /// libpng's two structures.
 class PngReader {
  public:
@@ -110,8 +131,7 @@ class PngReader {
       throw std::bad_alloc();
     }
     png_set_read_fn(png_, &reading, png_reads);
-    // libpng takes what a chunk claims before it reads it; none is longer than the file, and what
-    // one is decompressed to, such as a colour profile, is small.
+    // What a chunk is decompressed to, such as a colour profile, is small.
     constexpr std::size_t profile_bytes = std::size_t(1) << 20;
     png_set_chunk_malloc_max(png_, std::max(reading.size, profile_bytes));
   }
@@ -195,6 +215,7 @@ Picture read_png_picture(FileReader& file, const std::stop_token& stop) {
   }
   std::vector<std::uint8_t> bytes(std::size_t(file.left()));
   file.read(bytes.data(), bytes.size());
+  check_png_chunks(bytes);
   PngReading reading;
   reading.bytes = bytes.data();
   reading.size = bytes.size();
