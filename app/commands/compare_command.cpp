@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -64,7 +65,7 @@ std::optional<double> seconds_of(const std::map<std::string, std::string>& attri
              : std::nullopt;
 }
 
-/// The pixels from (left, top) of the frame on, of which `image` begins at (from_left, from_top).
+/// The pixels of `window`, of a picture that begins at (from_left, from_top).
 RadianceImage cut(const RadianceImage& image, int from_left, int from_top,
                   const ExrWindow& window) {
   RadianceImage result(window.width, window.height);
@@ -128,6 +129,12 @@ CompareResult load(const CompareOptions& options) {
     }
   }
   result.not_finite = left_out_of(result.test, result.reference.image);
+  // So that the noise of the reference, too, is that of the pixels that are compared.
+  for (std::size_t i = 0; i < result.reference.image.size(); ++i) {
+    if (result.not_finite.is_left_out[i] != 0) {
+      result.reference.image.pixels()[i] = glm::vec3(std::numeric_limits<float>::quiet_NaN());
+    }
+  }
   result.uncovered = std::size_t(test.width) * std::size_t(test.height) - result.test.size();
   result.test_notes = test.notes;
   result.reference_notes = placed.notes;

@@ -153,8 +153,8 @@ bool Lab::replay(std::uint32_t pass, std::uint32_t last) {
   if (moving.empty()) {
     return false;
   }
-  // A replay is not interrupted: so many pixels take about a tenth of a second.
-  constexpr std::size_t most_pixels = std::size_t(1) << 24;
+  // A replay is not interrupted: so many pixels take a tenth of a second or two.
+  constexpr std::size_t most_pixels = std::size_t(1) << 25;
   const std::size_t pixels = std::size_t(width()) * std::size_t(height()) * moving.size();
   const auto most = std::uint32_t(std::max<std::size_t>(most_pixels / pixels, 2));
   std::vector<std::unique_ptr<Replay>> replays;

@@ -57,7 +57,7 @@ class Lab {
   bool run_pass(std::stop_token stop = {});
 
   /// The same, but up to pass `last` at once where stored samples allow, without a look at what is
-  /// between. Advances by at least one pass.
+  /// between. Lanes that have to go pass by pass follow in later calls.
   bool run_passes(std::uint32_t last, std::stop_token stop = {});
 
   /// Gives a lane other settings: it starts again at pass 0, out of stored samples.

@@ -9,9 +9,9 @@
 namespace quartet {
 
 std::string memory_refusal(int width, int height, std::size_t lanes) {
-  // A pixel of a lane (film with statistics, error, counts, plan) and of the store with a few
-  // samples.
-  constexpr double lane_bytes = 150.0;
+  // A pixel of a lane (film with statistics, those of a replicated sampler too; error, counts,
+  // plan) and of the store with a few samples.
+  constexpr double lane_bytes = 250.0;
   constexpr double store_bytes = 150.0;
   constexpr double gib = 1024.0 * 1024.0 * 1024.0;
   const double pixels = double(width) * double(height);

@@ -21,7 +21,9 @@ struct PassRecord {
   std::uint32_t max_spp = 0;   ///< of the pixel with most, without those of a pilot
   std::uint64_t not_done = 0;  ///< pixels: Plan::not_done
   /// What the lane would have taken alone on all threads, in wall-clock seconds: its samples,
-  /// whoever traced them, its share of reading them, and its own estimates and plans.
+  /// whoever traced them, its share of reading them, and its own estimates and plans: as measured,
+  /// which for passes that were replayed together (replay.h) is less than for one after the other,
+  /// and small beside tracing.
   double seconds = 0.0;
   double tracing_seconds = 0.0;  ///< of these, its samples: SampleCosts of the work that they are
   /// Of the picture against a reference, in the metric of whoever had it measured (Lab::measure);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -53,6 +54,21 @@ T pfm_number(FileReader& file, const char* what) {
   return value;
 }
 
+/// A header with line ends of two bytes ends one byte after the white space that the format asks
+/// for; that byte is told from a pixel's by the size of the file.
+void skip_second_byte_of_line_end(FileReader& file, std::uint64_t pixel_bytes) {
+  if (file.left() != pixel_bytes + 1) {
+    return;
+  }
+  const std::uint64_t first = file.position();
+  std::array<char, 2> end{};
+  file.seek(first - 1);
+  file.read(end.data(), end.size());
+  if (end != std::array{'\r', '\n'}) {
+    file.seek(first);
+  }
+}
+
 std::uint32_t swapped(std::uint32_t bits) {
   return bits >> 24 | (bits >> 8 & 0xff00u) | (bits << 8 & 0xff0000u) | bits << 24;
 }
@@ -74,6 +90,7 @@ Picture read_pfm_picture(FileReader& file, const std::stop_token& stop) {
         "its scale is {}; -1 (low byte first) or 1 (high byte first) would be right", scale));
   }
   const std::size_t pixel_bytes = channels * sizeof(float);
+  skip_second_byte_of_line_end(file, std::uint64_t(width) * height * pixel_bytes);
   check_claimed_size(width, height, 1.0 / double(pixel_bytes), file.left());
 
   Picture picture = whole_picture(width, height);

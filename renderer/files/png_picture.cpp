@@ -35,9 +35,13 @@ struct PngReading {
   int passes = 1;
   bool srgb = false;   ///< the file says that it is
   bool icc = false;    ///< it has a profile
+  bool rec709 = true;  ///< it does not name other primaries
   double gamma = 0.0;  ///< as it says; 0 if it does not
   std::size_t row_bytes = 0;
 };
+
+/// White, red, green and blue, as PNG's cHRM has them.
+constexpr std::array rec709_xy{0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06};
 
 [[noreturn]] void png_fails(png_structp png, png_const_charp message) {
   auto* reading = static_cast<PngReading*>(png_get_error_ptr(png));
@@ -70,6 +74,10 @@ bool read_png_header(png_structp png, png_infop info, PngReading& reading) {
   int intent = 0;
   reading.srgb = png_get_sRGB(png, info, &intent) != 0;
   reading.icc = png_get_valid(png, info, PNG_INFO_iCCP) != 0;
+  std::array<double, 8> xy = rec709_xy;
+  png_get_cHRM(png, info, &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], &xy[6], &xy[7]);
+  reading.rec709 =
+      std::ranges::equal(xy, rec709_xy, [](double a, double b) { return std::abs(a - b) < 2e-3; });
   if (png_get_gAMA(png, info, &reading.gamma) == 0) {
     reading.gamma = 0.0;
   }
@@ -134,6 +142,8 @@ class PngReader {
     // What a chunk is decompressed to, such as a colour profile, is small.
     constexpr std::size_t profile_bytes = std::size_t(1) << 20;
     png_set_chunk_malloc_max(png_, std::max(reading.size, profile_bytes));
+    // Texts, of which there may be many, are not kept: 1 says none (0 any number).
+    png_set_chunk_cache_max(png_, 1);
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;
@@ -247,6 +257,10 @@ Picture read_png_picture(FileReader& file, const std::stop_token& stop) {
   }
   check(read_png_end(reader.png(), reading));
   picture.notes.push_back(transfer.note);
+  if (!reading.rec709 && !reading.srgb) {
+    picture.notes.emplace_back(
+        "its primaries are not those of Rec. 709; its numbers are taken as they are");
+  }
   if (transparent) {
     picture.notes.emplace_back("its colours are multiplied by its alpha: what they add to black");
   }

@@ -98,7 +98,7 @@ double Reference::noise_floor(MetricId id) const {
   for (std::size_t i = 0; i < off.size(); ++i) {
     off.pixels()[i] += 0.5f * (halves[0].pixels()[i] - halves[1].pixels()[i]);
   }
-  return metric(id).compute(off, image);
+  return compute_over_finite(metric(id), off, image);
 }
 
 std::optional<Reference> load_own_reference(const std::filesystem::path& path,

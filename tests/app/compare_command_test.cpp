@@ -138,6 +138,23 @@ TEST_F(PicturesOfOthers, CroppedPicturesCompareWhereBothHavePixels) {
   EXPECT_NEAR(known.at("noise_floor").at("mse").get<double>(), noise, 1e-5 * noise);
 }
 
+TEST_F(PicturesOfOthers, TheNoiseOfAReferenceIsThatOfThePixelsThatAreCompared) {
+  ASSERT_EQ(
+      run({"reference", "cornell-box", "--size", "9x5", "--spp", "8", "-o", path("ref.exr")}).code,
+      0);
+  const Reference ours = reference_of(*sums_of(read_exr(path("ref.exr")), "ref.exr"));
+  RadianceImage test = ours.image;
+  test.at(4, 2).b = std::numeric_limits<float>::quiet_NaN();
+  write("test.exr", test);
+  double noise = 0.0;
+  for (std::size_t i = 0; i < test.size(); ++i) {
+    const glm::dvec3 off = 0.5f * (ours.halves[0].pixels()[i] - ours.halves[1].pixels()[i]);
+    noise += i == 2 * 9 + 4 ? 0.0 : glm::dot(off, off) / (3.0 * 44.0);
+  }
+  const auto json = compare({path("test.exr"), path("ref.exr")});
+  EXPECT_NEAR(json.at("noise_floor").at("mse").get<double>(), noise, 1e-5 * noise);
+}
+
 TEST_F(PicturesOfOthers, LayersAreChosenForEachPicture) {
   const std::string layers = given("oiio-layers.exr");
   const auto json = compare(

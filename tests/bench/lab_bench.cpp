@@ -91,7 +91,6 @@ BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
     ->Arg(480)
     ->Arg(960)
     ->Arg(1920)
-
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
@@ -99,7 +98,6 @@ BENCHMARK_CAPTURE(replay, one_lane_two_threads, 1, 2)
     ->Arg(480)
     ->Arg(960)
     ->Arg(1920)
-
     ->Iterations(7)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();

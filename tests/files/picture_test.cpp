@@ -215,6 +215,13 @@ TEST(Picture, PfmBeginsBelowAndKeepsNumbersThatAreNotFinite) {
   EXPECT_NE(notes_of(picture).find("1 bytes behind its last pixel"), std::string::npos);
 }
 
+TEST(Picture, PfmWithLineEndsOfTwoBytes) {
+  const Picture picture = picture_of_bytes("Pf\r\n1 2\r\n-1\r\n" + floats_of_pfm({1.0f, 2.0f}));
+  EXPECT_EQ(picture.image.at(0, 0).x, 2.0f);
+  EXPECT_EQ(picture.image.at(0, 1).x, 1.0f);
+  EXPECT_EQ(notes_of(picture).find("behind its last pixel"), std::string::npos);
+}
+
 TEST(Picture, RadianceFilesOfEveryKind) {
   const auto gray = [](int value) { return std::string(3, char(value)) + char(128 + 8); };
   // Pixels one by one, a run of two in the old way, from the right below to the left above.

@@ -393,7 +393,9 @@ TEST(Reference, DamageInItsHeaderIsFound) {
     const std::string message = error_of([&] { sums_of(bad, "x.exr"); });
     EXPECT_NE(message.find("x.exr is a damaged reference"), std::string::npos) << name << message;
     bad.attributes.erase(name);
-    EXPECT_NE(error_of([&] { sums_of(bad, "x.exr"); }).find(name), std::string::npos);
+    const std::string missing = error_of([&] { sums_of(bad, "x.exr"); });
+    // Of before there was a choice of samplers: they say nothing of it.
+    EXPECT_EQ(missing.find(name) != std::string::npos, name != "sampler") << name << missing;
   }
   ExrImage bad = good;
   std::erase_if(bad.channels, [](const ExrChannel& c) { return c.name == "Half1.G.low"; });
