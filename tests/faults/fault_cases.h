@@ -48,9 +48,10 @@ inline void fail_each_call(const std::function<void()>& work, int stride,
   }
 }
 
-/// Keeps OpenEXR to the thread that calls it. Its threads have a queue, and where the queue finds no
-/// memory to grow, the task that was to enter it has been counted already: whoever wrote the picture
-/// waits for it for ever. Whether the queue has to grow is up to how quickly the threads empty it.
+/// Keeps OpenEXR to the thread that calls it. Its threads have a queue, and where the queue finds
+/// no memory to grow, the task that was to enter it has been counted already: whoever wrote the
+/// picture waits for it for ever. Whether the queue has to grow is up to how quickly the threads
+/// empty it.
 inline void without_exr_threads() {
   exr_threads();  // sets them up at the first call
   Imf::setGlobalThreadCount(0);
