@@ -158,6 +158,7 @@ bool Lab::replay(std::uint32_t pass, std::uint32_t last) {
   const std::size_t pixels = std::size_t(width()) * std::size_t(height()) * moving.size();
   const auto most = std::uint32_t(std::max<std::size_t>(most_pixels / pixels, 2));
   std::vector<std::unique_ptr<Replay>> replays;
+  replays.reserve(moving.size());
   for (Lane* lane : moving) {
     replays.push_back(lane->begin_replay(shown_.store, std::min(last - pass, most)));
   }

@@ -193,9 +193,9 @@ class Replay::Band {
     for (int column = 0; column < store.tile_columns(); ++column) {
       const SampleStore::TileMeans tile = store.tile_means(column, tile_row);
       for (int x = 0; x < tile.columns; ++x) {
-        const auto pixel = std::size_t(tile.left + x);
-        places_[pixel] = tile.of(n[pixel]) + row_of_tile + x;
-        __builtin_prefetch(places_[pixel]);
+        const int pixel = tile.left + x;
+        places_[std::size_t(pixel)] = tile.of(n[pixel]) + row_of_tile + x;
+        __builtin_prefetch(places_[std::size_t(pixel)]);
       }
     }
     const LookedUpRow out{means_.data(), means_.data() + width_, means_.data() + 2 * width_,

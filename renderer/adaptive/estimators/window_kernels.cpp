@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -46,7 +47,7 @@ void row_extremes(const float* row, int width, float* low, float* high) {
 void reduce_to_extremes(const MeanRow& means, int width, float* reduced) {
   for (const float* channel : means) {
     row_extremes(channel, width, reduced, reduced + width);
-    reduced += 2 * width;
+    reduced += 2 * std::ptrdiff_t(width);
   }
 }
 
@@ -76,7 +77,9 @@ void contrast_errors(const WindowRows& rows, int width, const ErrorRow& error) {
 
 /// Rec. 709 luminances.
 void reduce_to_luminance(const MeanRow& means, int width, float* reduced) {
-  const auto [r, g, b] = means;
+  const float* r = means[0];
+  const float* g = means[1];
+  const float* b = means[2];
 #pragma omp simd
   for (int x = 0; x < width; ++x) {
     reduced[x] = std::min(brightest, quartet::luminance(r[x], g[x], b[x]));

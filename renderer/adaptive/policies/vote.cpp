@@ -27,17 +27,16 @@ std::uint16_t first_of_vote(const Policy& /*policy*/) {
 void plan_vote(const LaneSettings& settings, const PlanRow& row, std::uint16_t* wanted) {
   const float multiplier = settings.policy.multiplier;
   // Through int, for which there are vectors; it rounds down because no term is negative.
+  const auto plan = [&](const auto& offset_of) {
+#pragma omp simd
+    for (std::size_t x = 0; x < row.width; ++x) {
+      wanted[x] = std::uint16_t(1 + int(multiplier * float(votes_of(row, x)) + offset_of(x)));
+    }
+  };
   if (settings.policy.stochastic_rounding) {
-#pragma omp simd
-    for (std::size_t x = 0; x < row.width; ++x) {
-      const float offset = dither(row.first_pixel + std::uint32_t(x), row.pass);
-      wanted[x] = std::uint16_t(1 + int(multiplier * float(votes_of(row, x)) + offset));
-    }
+    plan([&](std::size_t x) { return dither(row.first_pixel + std::uint32_t(x), row.pass); });
   } else {
-#pragma omp simd
-    for (std::size_t x = 0; x < row.width; ++x) {
-      wanted[x] = std::uint16_t(1 + int(multiplier * float(votes_of(row, x))));
-    }
+    plan([](std::size_t) { return 0.0f; });
   }
 }
 
