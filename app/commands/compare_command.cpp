@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -77,12 +76,8 @@ RadianceImage cut(const RadianceImage& image, int from_left, int from_top,
   return result;
 }
 
-ExrWindow common_window(const Picture& a, const Picture& b) {
-  const int left = std::max(a.left, b.left);
-  const int top = std::max(a.top, b.top);
-  const int right = std::min(a.left + a.image.width(), b.left + b.image.width());
-  const int bottom = std::min(a.top + a.image.height(), b.top + b.image.height());
-  return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
+ExrWindow covered_by(const Picture& picture) {
+  return {picture.left, picture.top, picture.image.width(), picture.image.height()};
 }
 
 /// A reference of ours, or another picture in the same form; `placed` says where it lies.
@@ -113,7 +108,7 @@ CompareResult load(const CompareOptions& options) {
         "{} has {}x{} pixels and {} has {}x{}; the same size would be right", options.test,
         test.width, test.height, options.reference, placed.width, placed.height));
   }
-  const ExrWindow window = common_window(test, placed);
+  const ExrWindow window = intersection(covered_by(test), covered_by(placed));
   if (window.width == 0 || window.height == 0) {
     throw std::runtime_error(
         fmt::format("{} and {} cover no pixel both; the same part of the picture would be right",

@@ -65,6 +65,16 @@ Imf::Header header_of(const ExrImage& image) {
 
 }  // namespace
 
+ExrWindow intersection(const ExrWindow& a, const ExrWindow& b) {
+  const int left = std::max(a.x, b.x);
+  const int top = std::max(a.y, b.y);
+  const auto end = [](int begin, int size) { return std::int64_t(begin) + size; };
+  const std::int64_t right = std::min(end(a.x, a.width), end(b.x, b.width));
+  const std::int64_t bottom = std::min(end(a.y, a.height), end(b.y, b.height));
+  return {left, top, int(std::max<std::int64_t>(0, right - left)),
+          int(std::max<std::int64_t>(0, bottom - top))};
+}
+
 const ExrChannel* ExrImage::find(std::string_view name) const {
   const auto it = std::ranges::find(channels, name, &ExrChannel::name);
   return it == channels.end() ? nullptr : &*it;

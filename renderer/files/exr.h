@@ -30,6 +30,9 @@ struct ExrWindow {
   bool operator==(const ExrWindow&) const = default;
 };
 
+/// What lies in both; empty if nothing does.
+ExrWindow intersection(const ExrWindow& a, const ExrWindow& b);
+
 /// What an EXR file holds: planar channels over the data window, and the text attributes of the
 /// header. The display window is the picture as it is meant to be seen; most files have both the
 /// same, cropped or overscanned ones do not.

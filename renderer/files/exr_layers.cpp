@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "renderer/base/lower_case.h"
 #include "renderer/files/picture_formats.h"
 
 namespace quartet {
@@ -24,11 +24,6 @@ struct ChannelGroup {
   std::vector<std::string> color() const;
   std::vector<std::string> luminance() const;
 };
-
-std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 /// Some write r, red or Red for R.
 std::optional<std::string> ChannelGroup::component(std::string_view letter,

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <variant>
 
@@ -9,17 +8,6 @@
 
 namespace quartet {
 namespace {
-
-/// What lies in both; empty if nothing does.
-ExrWindow intersection(const ExrWindow& a, const ExrWindow& b) {
-  const int left = std::max(a.x, b.x);
-  const int top = std::max(a.y, b.y);
-  const auto end = [](int begin, int size) { return std::int64_t(begin) + size; };
-  const std::int64_t right = std::min(end(a.x, a.width), end(b.x, b.width));
-  const std::int64_t bottom = std::min(end(a.y, a.height), end(b.y, b.height));
-  return {left, top, int(std::max<std::int64_t>(0, right - left)),
-          int(std::max<std::int64_t>(0, bottom - top))};
-}
 
 const std::vector<float>& floats_of(const ExrImage& exr, const std::string& channel) {
   const ExrChannel* found = exr.find(channel);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <new>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "renderer/base/cancel.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/files/exr_header.h"
 #include "renderer/files/picture_formats.h"
 
@@ -103,9 +103,7 @@ bool begins_as_exr(const std::filesystem::path& path) {
 }
 
 bool is_picture(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   if (std::ranges::find(picture_formats, extension, &PictureFormatRow::extension) !=
       picture_formats.end()) {
     return true;

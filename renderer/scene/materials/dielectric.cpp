@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "renderer/base/excerpt.h"
+#include "renderer/base/lower_case.h"
 #include "renderer/scene/limits.h"
 #include "renderer/scene/materials/hashed_row.h"
 #include "renderer/scene/xml/color.h"
@@ -29,9 +29,8 @@ double read_ior(SceneBuilder& builder, Element& element, std::string_view name,
     check_ior(element, name, ior);
     return ior;
   }
-  std::string wanted = node ? node.attribute("value").value() : std::string(fallback);
-  std::transform(wanted.begin(), wanted.end(), wanted.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string wanted =
+      lower_case(node ? node.attribute("value").value() : std::string(fallback));
   const auto table = named_dielectrics();
   const auto row = std::find_if(table.begin(), table.end(), [&](const NamedDielectric& candidate) {
     return candidate.name == wanted;
