@@ -57,8 +57,8 @@ enum class ViewKind {
 
 /// What a view depends on beside the samples of its lane.
 struct ViewNeeds {
-  bool variance =
-      false;  ///< LaneSnapshot::variance, which a snapshot carries only if it was asked for
+  /// LaneSnapshot::variance, which a snapshot carries only if it was asked for.
+  bool variance = false;
   bool reference = false;   ///< without one there is nothing to see
   bool other_lane = false;  ///< ViewSettings::other
   bool tone_map = false;    ///< ViewSettings::tone_map and exposure: it shows radiance

@@ -87,25 +87,21 @@ void replay(benchmark::State& state, std::size_t lanes, int threads) {
   const Film& film = lab.lanes().front().film();
   state.counters["B/pixel"] = double(film.bytes()) / double(film.size());
 }
+
+void in_seven_rounds(benchmark::internal::Benchmark* bench) {
+  bench->Iterations(7)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
 BENCHMARK_CAPTURE(replay, four_lanes_two_threads, 4, 2)
     ->Arg(480)
     ->Arg(960)
     ->Arg(1920)
-    ->Iterations(7)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->Apply(in_seven_rounds);
 BENCHMARK_CAPTURE(replay, one_lane_two_threads, 1, 2)
     ->Arg(480)
     ->Arg(960)
     ->Arg(1920)
-    ->Iterations(7)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)
-    ->Arg(480)
-    ->Iterations(7)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->Apply(in_seven_rounds);
+BENCHMARK_CAPTURE(replay, one_lane_one_thread, 1, 1)->Arg(480)->Apply(in_seven_rounds);
 
 /// Replays one lane with an estimator that wants the samples themselves, not only their means.
 void replay_samples(benchmark::State& state, EstimatorId id) {

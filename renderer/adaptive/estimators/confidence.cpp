@@ -16,11 +16,8 @@ namespace {
 void estimate_confidence(const EstimatorInput& input, std::span<float> error) {
   constexpr double darkest = 1e-3;
   const Film& film = input.film;
-  each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
-    const auto [squares, freedom] = film.luminance_deviations(i);
-    if (freedom == 0) {
-      return not_judged;
-    }
+  each_known_variance(input, error, [&](std::size_t i, const auto& deviations, std::uint32_t n) {
+    const auto [squares, freedom] = deviations;
     const double of_mean = std::sqrt(squares / (double(freedom) * double(n)));
     return student_t_975(freedom) * of_mean / std::max(film.mean_luminance(i), darkest);
   });

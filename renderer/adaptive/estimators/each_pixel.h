@@ -45,4 +45,14 @@ void each_judged_pixel(const EstimatorInput& input, std::span<float> error,
   each_pixel(input, error, 2, error_of);
 }
 
+/// Writes error_of(pixel, deviations, n) where the variance of a pixel's mean is known.
+template <class ErrorOf>
+void each_known_variance(const EstimatorInput& input, std::span<float> error,
+                         const ErrorOf& error_of) {
+  each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
+    const LuminanceDeviations deviations = input.film.luminance_deviations(i);
+    return deviations.freedom == 0 ? not_judged : error_of(i, deviations, n);
+  });
+}
+
 }  // namespace quartet

@@ -21,11 +21,8 @@ void estimate_rigau_kl(const EstimatorInput& input, std::span<float> error) {
 /// of replicates, s²/n is what their means show. The other two are no variances, and stay.
 void estimate_rigau_chi2(const EstimatorInput& input, std::span<float> error) {
   const Film& film = input.film;
-  each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
-    const auto [squares, freedom] = film.luminance_deviations(i);
-    if (freedom == 0) {
-      return not_judged;
-    }
+  each_known_variance(input, error, [&](std::size_t i, const auto& deviations, std::uint32_t n) {
+    const auto [squares, freedom] = deviations;
     const double as_if_independent = squares * (double(n - 1) / double(freedom));
     return spread_error(Divergence::chi2, as_if_independent, film.mean_luminance(i), double(n));
   });

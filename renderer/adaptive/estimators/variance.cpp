@@ -10,10 +10,8 @@ namespace {
 /// samples normally distributed, (n − 1) s² / χ²(0.05, n − 1) / n. Of replicates the same of what
 /// their means show.
 void estimate_variance(const EstimatorInput& input, std::span<float> error) {
-  const Film& film = input.film;
-  each_judged_pixel(input, error, [&](std::size_t i, std::uint32_t n) {
-    const auto [squares, freedom] = film.luminance_deviations(i);
-    return freedom == 0 ? not_judged : squares / chi_square_05(freedom) / double(n);
+  each_known_variance(input, error, [](std::size_t, const auto& deviations, std::uint32_t n) {
+    return deviations.squares / chi_square_05(deviations.freedom) / double(n);
   });
 }
 
