@@ -165,13 +165,14 @@ void Lane::end_replay(const SampleStore& store, Replay& replay) {
   reject(film_, store, taken_, replay.taken());
   taken_.swap(replay.taken());
   plan_.wanted.swap(replay.wanted());
-  plan_.total = std::accumulate(plan_.wanted.begin(), plan_.wanted.end(), std::uint64_t(0));
   for (const PassTotal& total : replay.totals()) {
     own_seconds_ += replay.seconds() / double(replay.passes());
     record_pass(total);
   }
-  shown_work_ = replay.totals().back().work;
-  plan_.not_done = replay.totals().back().not_done;
+  const PassTotal& last = replay.totals().back();
+  shown_work_ = last.work;
+  plan_.total = last.planned;
+  plan_.not_done = last.not_done;
 }
 
 void Lane::forget_true_errors() {

@@ -97,6 +97,7 @@ class Replay::Band {
     for (std::size_t p = 0; p < totals.size(); ++p) {
       const PassTotal& more = passes_[p].total;
       totals[p].samples += more.samples;
+      totals[p].planned += more.planned;
       totals[p].not_done += more.not_done;
       totals[p].max_spp = std::max(totals[p].max_spp, more.max_spp);
       totals[p].work += more.work;
@@ -269,9 +270,13 @@ class Replay::Band {
     if (!planned_rows(p).contain(y)) {
       return;
     }
-    plan_row(replay_.start_.settings,
-             passes_[p].marks.plan_row(y, replay_.start_.pass + p + 1, {taken_row(y), width_}),
-             {wanted_row(y), width_});
+    const std::uint64_t planned =
+        plan_row(replay_.start_.settings,
+                 passes_[p].marks.plan_row(y, replay_.start_.pass + p + 1, {taken_row(y), width_}),
+                 {wanted_row(y), width_});
+    if (own_.contain(y)) {
+      passes_[p].total.planned += planned;
+    }
     if (!is_last(p) && fed_rows(p + 1).contain(y)) {
       feed(p + 1, y);
     }

@@ -16,6 +16,7 @@ namespace quartet {
 /// What one pass adds to a lane's record.
 struct PassTotal {
   std::uint64_t samples = 0;   ///< that it took
+  std::uint64_t planned = 0;   ///< that the next one is to take
   std::uint64_t not_done = 0;  ///< pixels at its end
   std::uint32_t max_spp = 0;   ///< of the pixel with most
   SampleCosts::Work work;      ///< of all samples until its end

@@ -50,12 +50,18 @@ std::uint32_t keep_below_maximum(std::uint32_t maximum, const std::uint32_t* tak
 void plan_everywhere(const LaneSettings& settings, const PlanInput& input, std::uint16_t samples,
                      Plan& plan) {
   const auto width = std::size_t(input.width);
-  std::fill(plan.wanted.begin(), plan.wanted.end(), samples);
+  std::atomic<std::uint64_t> total = 0;
+  parallel_for(std::size_t(input.height), plan_grain_rows, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t wanted_here = 0;
+    for (std::size_t y = begin; y < end; ++y) {
+      const std::span row = std::span(plan.wanted).subspan(y * width, width);
+      std::ranges::fill(row, samples);
+      wanted_here += keep_below_maximum(settings.max_spp, input.taken.data() + y * width, row);
+    }
+    total += wanted_here;
+  });
+  plan.total = total;
   plan.not_done = plan.wanted.size();
-  for (std::size_t first = 0; first < plan.wanted.size(); first += width) {
-    plan.total += keep_below_maximum(settings.max_spp, input.taken.data() + first,
-                                     std::span(plan.wanted).subspan(first, width));
-  }
 }
 
 }  // namespace
@@ -81,7 +87,6 @@ std::uint64_t plan_row(const LaneSettings& settings, const PlanRow& row,
 
 void plan_next(const LaneSettings& settings, const PlanInput& input, Plan& plan) {
   plan.wanted.resize(input.taken.size());
-  plan.total = 0;
   if (estimator(settings.estimator).channels == 0) {
     plan_everywhere(settings, input, 1, plan);  // without an error there is nothing to choose by
     return;
