@@ -10,12 +10,17 @@
 #include "ui/widgets/theme.h"
 
 namespace quartet {
+namespace {
+
+constexpr const char* shading_language = "#version 330 core";
+
+}  // namespace
 
 ImguiScreen::ImguiScreen() : context_(ImGui::CreateContext()) {
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().LogFilename = nullptr;
-  if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
+  if (!ImGui_ImplOpenGL3_Init(shading_language)) {
     ImGui::DestroyContext(context_);
     throw std::runtime_error("Dear ImGui cannot draw with this OpenGL; 3.3 or newer is needed");
   }
@@ -27,8 +32,11 @@ ImguiScreen::~ImguiScreen() {
 }
 
 void ImguiScreen::forget_fonts() {
-  // The one call for it that every Dear ImGui from 1.86 on has; the next frame makes all anew.
-  ImGui_ImplOpenGL3_DestroyDeviceObjects();
+  // Every Dear ImGui from 1.86 on can do this. ImGui_ImplOpenGL3_DestroyDeviceObjects() would be
+  // less, but 1.86 then fills its new buffers as if they had the size of the old ones, and nothing
+  // is drawn until a frame has more vertices than all before. What worked once works again.
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplOpenGL3_Init(shading_language);
 }
 
 void ImguiScreen::begin_frame() {

@@ -49,12 +49,13 @@ class LabHand {
   const Snapshot& snapshot() { return *driver_.snapshot(); }
   const LaneSettings& settings(std::size_t lane) { return state().request.lanes.settings[lane]; }
 
-  void frame() {
-    ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
-    seconds_ += 1.0 / 60.0;
+  /// OpenGL, in software most of a frame's time, draws it only where somebody looks: screen().
+  void frame(float seconds = 1.0f / 60.0f) {
+    ImGui::GetIO().DeltaTime = seconds;
+    seconds_ += double(seconds);
     driver_.begin_frame(screen_, 1.0f);
     driver_.draw(seconds_);
-    screen_.end_frame(offscreen_.gl(), offscreen_.width(), offscreen_.height());
+    ImGui::Render();
   }
   void frames(int count) {
     for (int i = 0; i < count; ++i) {
@@ -92,7 +93,7 @@ class LabHand {
     move(x, y);
     press(true);
     press(false);
-    frames(25);  // past the time of a double click
+    wait();
   }
   void click(const std::string& name) {
     const ScreenRect box = rect(name);
@@ -109,7 +110,7 @@ class LabHand {
       frame();
     }
     press(false, button);
-    frames(25);
+    wait();
   }
   /// A widget's middle by so many pixels to the right.
   void drag(const std::string& name, float by) {
@@ -146,7 +147,7 @@ class LabHand {
   /// What is on screen in a widget.
   std::vector<Rgba8> pixels(const std::string& name) {
     const ScreenRect box = rect(name);
-    const DisplayImage screen = offscreen_.read();
+    const DisplayImage screen = this->screen();
     std::vector<Rgba8> inside;
     for (int y = int(box.y); y < int(box.bottom()); ++y) {
       for (int x = int(box.x); x < int(box.right()); ++x) {
@@ -155,9 +156,18 @@ class LabHand {
     }
     return inside;
   }
-  DisplayImage screen() { return offscreen_.read(); }
+  DisplayImage screen() {
+    screen_.end_frame(offscreen_.gl(), offscreen_.width(), offscreen_.height());
+    return offscreen_.read();
+  }
 
  private:
+  /// Past the time of a double click, as one long frame among short ones.
+  void wait() {
+    frame(0.4f);
+    frames(4);
+  }
+
   Offscreen offscreen_;
   ImguiScreen screen_;
   LabDriver driver_;
