@@ -64,14 +64,12 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
           kl + "41,5,50.500000,54,51,50.250000,false_stops,0.625000",
           kl + "41,5,50.500000,54,51,50.250000,oracle_distance,0.625000",
       });
-  test::expect_lines(calibration_csv(report), {
-                                                  "scene,sampler,estimator,policy,mode,thresholds,"
-                                                  "seed,estimated_error,true_squared_error,pixels",
-                                                  kl + "40,40.1,40.2,100",
-                                                  kl + "40,40.3,40.4,110",
-                                                  kl + "41,41.1,41.2,101",
-                                                  kl + "41,41.3,41.4,111",
-                                              });
+  const std::string header =
+      "scene,sampler,estimator,policy,mode,thresholds,seed,"
+      "estimated_error,true_squared_error,pixels";
+  test::expect_lines(calibration_csv(report),
+                     {header, kl + "40,40.1,40.2,100", kl + "40,40.3,40.4,110",
+                      kl + "41,41.1,41.2,101", kl + "41,41.3,41.4,111"});
 }
 
 }  // namespace
