@@ -13,6 +13,7 @@
 #include "app/options/usage_error.h"
 #include "app/records/json_text.h"
 #include "app/terminal/messages.h"
+#include "renderer/base/image.h"
 #include "renderer/base/version.h"
 #include "renderer/files/picture.h"
 #include "renderer/files/staged_files.h"
@@ -170,6 +171,14 @@ glm::dvec3 mean(const RadianceImage& image, const LeftOut& left_out) {
   return sum / double(image.size() - left_out.either);
 }
 
+/// energy_error() of the pixels that count; NaN if the reference is black.
+double energy_error_of(const CompareResult& comparison) {
+  const glm::dvec3 x = mean(comparison.test, comparison.not_finite);
+  const glm::dvec3 r = mean(comparison.reference.image, comparison.not_finite);
+  const double right = luminance(r.r, r.g, r.b);
+  return right > 0.0 ? luminance(x.r, x.g, x.b) / right - 1.0 : std::nan("");
+}
+
 /// JSON has no infinity: the decibels of two equal pictures are null.
 ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
@@ -198,6 +207,7 @@ ordered_json record_of(const CompareOptions& options, const CompareResult& compa
     json["metrics"][row.id] = number(compute_over_finite(row, comparison.test, reference.image));
     json["noise_floor"][row.id] = number(reference.noise_floor(row.key));
   }
+  json["metrics"]["energy_error"] = number(energy_error_of(comparison));
   json["seconds"] = comparison.seconds ? ordered_json(*comparison.seconds) : ordered_json(nullptr);
   json["metrics"]["efficiency"] =
       comparison.seconds
@@ -220,6 +230,8 @@ void print_table(const CompareOptions& options, const CompareResult& comparison)
                compute_over_finite(row, comparison.test, reference.image), floor, row.unit,
                row.definition);
   }
+  fmt::print("{:<15} {:>+12.6g} {:>12}  {:<9} mean luminance of x over that of r, less 1\n",
+             "energy_error", energy_error_of(comparison), "", "");
   if (comparison.seconds) {
     const double mse = compute_over_finite(metric(MetricId::mse), comparison.test, reference.image);
     fmt::print("{:<15} {:>12.6g} {:>12}  {:<9} 1/(mse · seconds), {:.4g} s\n", "efficiency",

@@ -97,9 +97,18 @@ std::string seed_text(std::uint32_t seeds) {
 
 void print_points(const SweepSummary& summary) {
   const Metric& row = metric(summary.metric);
-  fmt::print("Of uniform: the error over that of uniform sampling after the same time.\n");
-  fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "estimator", "factor", "mean spp",
-             "seconds", row.id, "of uniform");
+  // Rays are counted, so that what is called best is the same on every machine.
+  const bool traced = summary.uniform.back().mean_rays > 0.0;
+  const auto counted = std::size_t(traced ? Effort::rays : Effort::mean_spp);
+  fmt::print(
+      "energy: mean luminance over the reference's, less 1. Of uniform: the error over that of\n"
+      "uniform sampling run to as many {}, and as many seconds; below 1 the estimator gains, if\n"
+      "its energy is right.\n",
+      traced ? "rays" : "samples");
+  fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>9} {:>11} {:>11}\n", "", "", "", "", "", "",
+             "of uniform,", "of uniform,");
+  fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>9} {:>11} {:>11}\n", "estimator", "factor",
+             "mean spp", "seconds", row.id, "energy", traced ? "rays" : "samples", "seconds");
   for (std::size_t begin = 0; begin < summary.points.size();) {
     const EstimatorId id = summary.points[begin].settings.estimator;
     const SweepPoint* normal = nullptr;
@@ -108,22 +117,25 @@ void print_points(const SweepSummary& summary) {
     for (; end < summary.points.size() && summary.points[end].settings.estimator == id; ++end) {
       const SweepPoint& point = summary.points[end];
       normal = point.factor == 1.0 ? &point : normal;
-      best = point.against_uniform < best->against_uniform ? &point : best;
+      best = point.against_uniform[counted] < best->against_uniform[counted] ? &point : best;
     }
     const auto print = [&](std::string_view label, const SweepPoint& point, std::string_view note) {
-      fmt::print("{:<22} {:>9.3g} {:>9.2f} {:>9.3f} {:>11.4g} {:>11.3f}   {}\n", label,
-                 point.factor, point.mean_spp, point.seconds, point.error, point.against_uniform,
-                 note);
+      fmt::print(
+          "{:<22} {:>9.3g} {:>9.2f} {:>9.3f} {:>11.4g} {:>+7.2f} % {:>11.3f} {:>11.3f}   {}\n",
+          label, point.factor, point.mean_spp, point.seconds, point.error, 100.0 * point.energy,
+          point.against_uniform[counted], point.against_uniform[std::size_t(Effort::seconds)],
+          note);
     };
     print(estimator(id).label, *normal, "at its default threshold");
-    if (best->against_uniform < normal->against_uniform) {
+    if (best->against_uniform[counted] < normal->against_uniform[counted]) {
       print("", *best, "at the best of the sweep");
     }
     begin = end;
   }
   const SweepPoint& uniform = summary.uniform.back();
-  fmt::print("{:<22} {:>9} {:>9.2f} {:>9.3f} {:>11.4g} {:>11.3f}\n", "uniform", "",
-             uniform.mean_spp, uniform.seconds, uniform.error, 1.0);
+  fmt::print("{:<22} {:>9} {:>9.2f} {:>9.3f} {:>11.4g} {:>+7.2f} % {:>11.3f} {:>11.3f}\n",
+             "uniform", "", uniform.mean_spp, uniform.seconds, uniform.error,
+             100.0 * uniform.energy, 1.0, 1.0);
 }
 
 void print_savings(const SweepResult& result) {
@@ -260,8 +272,8 @@ void add_sweep_command(CLI::App& app, const Program& program) {
       "A point of a curve is where a run ends with the default thresholds times a factor: after "
       "15 passes,\nor at 64 mean samples per pixel, unless told otherwise. Under the policy vote "
       "every pixel gets at\nleast one sample a pass, so that the highest thresholds still cost "
-      "what uniform sampling of as many\npasses does. The baseline goes on until the cost limit, "
-      "whatever --passes says.\n"
+      "what uniform sampling of as many\npasses does. The baseline goes on until it has taken as "
+      "much as the dearest run.\n"
       "Examples:\n"
       "  quartet sweep cornell-checker --size 480x270 --out sweep\n"
       "  quartet sweep veach-plates --estimators contrast,kl --thresholds 16 --seeds 5 "

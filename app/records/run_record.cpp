@@ -16,6 +16,7 @@
 #include "renderer/adaptive/effort.h"
 #include "renderer/adaptive/policies/policy_parameter.h"
 #include "renderer/base/version.h"
+#include "renderer/measure/energy.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/store/sample_store.h"
 #include "renderer/view/views.h"
@@ -73,6 +74,7 @@ std::vector<std::pair<std::string_view, double>> true_errors(const Snapshot& sna
   }
   const double mse = metric(MetricId::mse).compute(image, *snapshot.reference);
   errors.emplace_back("efficiency", efficiency(mse, snapshot.lanes[lane].history.back().seconds));
+  errors.emplace_back("energy_error", energy_error(image, *snapshot.reference));
   return errors;
 }
 

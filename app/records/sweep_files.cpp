@@ -33,6 +33,7 @@ void add_metrics(const SweepReport& report, const std::string& head, const Measu
     csv += fmt::format("{},{},{:.9g}\n", head, metric(report.plan.metrics[m]).id,
                        measurement.values[m]);
   }
+  csv += fmt::format("{},energy_error,{:.9g}\n", head, measurement.energy);
 }
 
 std::string stop_text(const StopConditions& stop) {

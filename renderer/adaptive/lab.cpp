@@ -87,15 +87,34 @@ bool Lab::partial() const {
   return shown_.store.partial() || (pilot_ && pilot_->store.partial());
 }
 
+std::vector<Lane*> Lab::lanes_at(std::uint32_t pass) {
+  std::vector<Lane*> found;
+  for (Lane& lane : lanes_) {
+    if (lane.pass() == pass) {
+      found.push_back(&lane);
+    }
+  }
+  return found;
+}
+
 bool Lab::run_pass(std::stop_token stop) {
-  const std::uint32_t behind = pass();
+  return step(lanes_at(pass()), std::move(stop));
+}
+
+bool Lab::run_pass_of(std::size_t lane, std::stop_token stop) {
+  Lane* const moving = &lanes_[lane];
+  return step(std::span(&moving, 1), std::move(stop));
+}
+
+/// Takes lanes, all at the same pass, to the next one.
+bool Lab::step(std::span<Lane* const> moving, std::stop_token stop) {
   bool finished = false;
   arena_.execute([&] {
-    finished = trace(shown_, behind, stop) && (!pilot_ || trace(*pilot_, behind, stop));
+    finished = trace(shown_, moving, stop) && (!pilot_ || trace(*pilot_, moving, stop));
     if (!finished) {
       return;
     }
-    advance(behind);
+    advance(moving);
     charge(true);
     forget(shown_);
     if (pilot_) {
@@ -105,14 +124,10 @@ bool Lab::run_pass(std::stop_token stop) {
   return finished;
 }
 
-/// Advances the lanes at a pass, whose samples the stores hold.
-void Lab::advance(std::uint32_t pass) {
-  std::vector<Lane*> moving;
-  for (Lane& lane : lanes_) {
-    if (lane.pass() == pass) {
-      lane.begin_pass(stores());
-      moving.push_back(&lane);
-    }
+/// Advances lanes whose samples the stores hold.
+void Lab::advance(std::span<Lane* const> moving) {
+  for (Lane* lane : moving) {
+    lane->begin_pass(stores());
   }
   // Together, because lanes want much the same samples: what one has brought into the cache, the
   // others find there. The share that each is charged is therefore a little less than what it would
@@ -144,12 +159,8 @@ bool Lab::run_passes(std::uint32_t last, std::stop_token stop) {
 /// Takes the lanes at a pass that can be replayed as far as stored samples go, and a moment allows;
 /// false if there are none.
 bool Lab::replay(std::uint32_t pass, std::uint32_t last) {
-  std::vector<Lane*> moving;
-  for (Lane& lane : lanes_) {
-    if (lane.pass() == pass && lane.can_replay(shown_.store)) {
-      moving.push_back(&lane);
-    }
-  }
+  std::vector<Lane*> moving = lanes_at(pass);
+  std::erase_if(moving, [&](const Lane* lane) { return !lane->can_replay(shown_.store); });
   if (moving.empty()) {
     return false;
   }
@@ -185,27 +196,24 @@ void Lab::charge(bool one_pass) {
   }
 }
 
-/// Traces what a store lacks for the lanes at a pass.
-bool Lab::trace(Stream& stream, std::uint32_t pass, std::stop_token stop) {
-  const auto moves = [&](const Lane& lane) {
-    return lane.pass() == pass && takes_from(lane, stream);
+/// Traces what a store lacks for the next pass of some lanes.
+bool Lab::trace(Stream& stream, std::span<Lane* const> moving, std::stop_token stop) {
+  const auto lacks = [&](const Lane* lane) {
+    return takes_from(*lane, stream) && !stream.store.holds(lane->taken(), lane->plan().wanted);
   };
-  const auto lacking = [&](const Lane& lane) {
-    return moves(lane) && !stream.store.holds(lane.taken(), lane.plan().wanted);
-  };
-  if (std::none_of(lanes_.begin(), lanes_.end(), lacking)) {
+  if (std::ranges::none_of(moving, lacks)) {
     return true;
   }
   const std::size_t pixels = std::size_t(width()) * std::size_t(height());
   begin_.assign(pixels, UINT32_MAX);
   end_.assign(pixels, 0);
-  for (const Lane& lane : lanes_) {
-    if (!moves(lane)) {
+  for (const Lane* lane : moving) {
+    if (!takes_from(*lane, stream)) {
       continue;
     }
     for (std::size_t i = 0; i < pixels; ++i) {
-      const std::uint32_t taken = lane.taken()[i];
-      const std::uint32_t wanted = lane.plan().wanted[i];
+      const std::uint32_t taken = lane->taken()[i];
+      const std::uint32_t wanted = lane->plan().wanted[i];
       begin_[i] = std::min(begin_[i], wanted > 0 ? taken : UINT32_MAX);
       end_[i] = std::max(end_[i], wanted > 0 ? taken + wanted : 0);
     }
@@ -275,9 +283,9 @@ void Lab::set_lanes(std::span<const LaneSettings> lane_settings, FilmStatistics 
   make_pilot();
 }
 
-void Lab::measure(const std::function<double(const Film&)>& error_of) {
+void Lab::measure(const std::function<TrueError(const Film&)>& error_of) {
   for (Lane& lane : lanes_) {
-    if (lane.pass() > 0 && std::isnan(lane.history().back().true_error)) {
+    if (lane.pass() > 0 && std::isnan(lane.history().back().truth.error)) {
       lane.set_true_error(error_of(lane.film()));
     }
   }
@@ -289,8 +297,8 @@ void Lab::forget_true_errors() {
   }
 }
 
-void Lab::rewind_past(std::uint32_t pass) {
-  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+void Lab::rewind_past(std::uint32_t pass, std::size_t count) {
+  for (std::size_t i = 0; i < std::min(count, lanes_.size()); ++i) {
     if (lanes_[i].pass() > pass) {
       set_settings(i, LaneSettings(lanes_[i].settings()));
     }

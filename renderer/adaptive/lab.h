@@ -56,7 +56,10 @@ class Lab {
   /// store without samples is filled with its first ones whatever `stop` says.
   bool run_pass(std::stop_token stop = {});
 
-  /// The same, but up to pass `last` at once where stored samples allow, without a look at what is
+  /// Advances one lane alone by one pass, wherever the others are; else like run_pass.
+  bool run_pass_of(std::size_t lane, std::stop_token stop = {});
+
+  /// run_pass, but up to pass `last` at once where stored samples allow, without a look at what is
   /// between. Lanes that have to go pass by pass follow in later calls.
   bool run_passes(std::uint32_t last, std::stop_token stop = {});
 
@@ -70,11 +73,12 @@ class Lab {
                  std::shared_ptr<const RadianceImage> reference = nullptr);
 
   /// Writes `error_of` the picture into the last record of each lane where it is not known yet.
-  void measure(const std::function<double(const Film&)>& error_of);
+  void measure(const std::function<TrueError(const Film&)>& error_of);
   void forget_true_errors();
 
-  /// Back to pass 0, for all lanes that are past `pass`; the stores are kept.
-  void rewind_past(std::uint32_t pass);
+  /// Back to pass 0, for those of the first `count` lanes that are past `pass`; the stores are
+  /// kept.
+  void rewind_past(std::uint32_t pass, std::size_t count = SIZE_MAX);
 
  private:
   /// Where samples come from, and where they are kept.
@@ -91,9 +95,11 @@ class Lab {
   }
   bool takes_from(const Lane& lane, const Stream& stream) const;
 
-  void advance(std::uint32_t pass);
+  std::vector<Lane*> lanes_at(std::uint32_t pass);
+  bool step(std::span<Lane* const> moving, std::stop_token stop);
+  void advance(std::span<Lane* const> moving);
   bool replay(std::uint32_t pass, std::uint32_t last);
-  bool trace(Stream& stream, std::uint32_t pass, std::stop_token stop);
+  bool trace(Stream& stream, std::span<Lane* const> moving, std::stop_token stop);
   void forget(Stream& stream);
   void charge(bool one_pass);
 

@@ -146,7 +146,7 @@ void Lane::record_pass(const PassTotal& total) {
   record.rays = std::accumulate(units.begin(), units.end(), std::uint64_t(0)) - record.samples;
   record.not_done = total.not_done;
   record.seconds = own_seconds_;
-  record.true_error = PassRecord().true_error;
+  record.truth = {};
   history_.push(record, total.work);
 }
 
@@ -177,7 +177,7 @@ void Lane::end_replay(const SampleStore& store, Replay& replay) {
 
 void Lane::forget_true_errors() {
   for (PassRecord& record : history_.records()) {
-    record.true_error = PassRecord().true_error;
+    record.truth = {};
   }
 }
 

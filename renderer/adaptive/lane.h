@@ -75,7 +75,7 @@ class Lane {
   /// last were charged by the same.
   void charge(const SampleCosts& costs, bool last_only) { history_.charge(costs, last_only); }
   /// Writes the error of the picture into the last record.
-  void set_true_error(double error) { history_.back().true_error = error; }
+  void set_true_error(const TrueError& error) { history_.back().truth = error; }
   /// Of all records.
   void forget_true_errors();
 

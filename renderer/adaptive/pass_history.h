@@ -9,6 +9,14 @@
 
 namespace quartet {
 
+/// How far a picture is from a reference.
+struct TrueError {
+  /// In the metric of whoever had it measured (Lab::measure); NaN: it was not.
+  double error = std::numeric_limits<double>::quiet_NaN();
+  /// How much more light it holds: measure/energy.h.
+  double energy = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// A lane at the end of one pass.
 struct PassRecord {
   std::uint32_t pass = 0;  ///< from 1
@@ -26,9 +34,7 @@ struct PassRecord {
   /// and small beside tracing.
   double seconds = 0.0;
   double tracing_seconds = 0.0;  ///< of these, its samples: SampleCosts of the work that they are
-  /// Of the picture against a reference, in the metric of whoever had it measured (Lab::measure);
-  /// NaN: it was not.
-  double true_error = std::numeric_limits<double>::quiet_NaN();
+  TrueError truth = {};
 };
 
 /// The passes of a lane in bounded memory: all of them up to `most_records`, then every second one,

@@ -13,21 +13,16 @@ ErrorCurve::ErrorCurve(std::vector<Point> points) : points_(std::move(points)) {
 }
 
 double ErrorCurve::error_at(double cost) const {
-  if (points_.empty()) {
+  if (points_.empty() || !(cost >= points_.front().cost && cost <= points_.back().cost)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   const auto right = std::ranges::lower_bound(points_, cost, {}, &Point::cost);
-  if (right == points_.begin() || right == points_.end()) {
-    const Point& end = right == points_.end() ? points_.back() : points_.front();
-    return end.error * std::pow(cost / end.cost, slope_beyond);
+  if (right == points_.begin()) {
+    return right->error;
   }
   const Point& a = *(right - 1);
   const double share = std::log(cost / a.cost) / std::log(right->cost / a.cost);
   return a.error * std::pow(right->error / a.error, share);
-}
-
-double slope_of(const Metric& metric) {
-  return metric.scale == MetricScale::squared_error ? -1.0 : -0.5;
 }
 
 }  // namespace quartet

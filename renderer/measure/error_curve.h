@@ -3,8 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "renderer/measure/metrics.h"
-
 namespace quartet {
 
 /// How the error of a method falls with what is spent on it, through measured points: straight
@@ -20,21 +18,14 @@ class ErrorCurve {
   /// In rising order of cost; points without a positive cost and error are left out.
   explicit ErrorCurve(std::vector<Point> points);
 
-  /// The error at a cost; beyond the points, that of a line of `slope_beyond` through the nearest
-  /// one. NaN if there are no points.
+  /// The error at a cost; NaN where that is not between the first point and the last: how errors
+  /// would go on depends on sampler, scene and bias, and nobody knows.
   double error_at(double cost) const;
 
   std::span<const Point> points() const { return points_; }
 
-  /// Of samples at random, whose mean squared error falls as one over their number.
-  double slope_beyond = -1.0;
-
  private:
   std::vector<Point> points_;
 };
-
-/// Beyond the points: as a metric's errors fall with samples at random, −1 for squared errors, else
-/// −½. Of decibels there is none that means anything.
-double slope_of(const Metric& metric);
 
 }  // namespace quartet

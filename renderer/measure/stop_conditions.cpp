@@ -86,10 +86,10 @@ double StopConditions::progress(const LaneSnapshot& lane) const {
 
 double StopConditions::progress_at(const LaneSnapshot& lane, const PassRecord& record) const {
   StopConditions known = *this;
-  if (std::isnan(record.true_error)) {
+  if (std::isnan(record.truth.error)) {
     known.error.reset();
   }
-  return known.progress(record, lane.taken.size(), record.true_error);
+  return known.progress(record, lane.taken.size(), record.truth.error);
 }
 
 std::optional<std::uint32_t> StopConditions::end_of(const LaneSnapshot& lane) const {

@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/adaptive/effort.h"
+#include "renderer/measure/energy.h"
+
 namespace quartet {
 namespace {
 
@@ -122,7 +125,7 @@ void LabWorker::make_lab() {
 void LabWorker::change_lab() {
   const LabRequest& request = current_->request;
   std::uint32_t reached = shown_ ? shown_->pass : 0;
-  for (const Lane& lane : lab_->lanes()) {
+  for (const Lane& lane : lab_->lanes().first(lab_->lanes().size() - (measured_against_ ? 1 : 0))) {
     reached = std::max(reached, lane.pass());
   }
   FilmStatistics statistics;
@@ -132,7 +135,7 @@ void LabWorker::change_lab() {
     publish_shown_again();
     return;
   }
-  lab_->rewind_past(request.lanes.pass);
+  lab_->rewind_past(request.lanes.pass, request.lanes.settings.size());
   if (measure_anew() && request.lanes.reference) {
     lab_->rewind_past(0);  // the passes of before are to be measured too
   }
@@ -152,6 +155,36 @@ bool LabWorker::measure_anew() {
   measured_in_ = request.lanes.metric;
   lab_->forget_true_errors();
   return true;
+}
+
+/// Takes uniform sampling as far as the dearest lane has come, in every effort, so that lanes are
+/// compared with what it really gives for the same. False if it was stopped.
+bool LabWorker::keep_up_baseline() {
+  const std::size_t last = lab_->lanes().size() - 1;
+  const Lane& baseline = lab_->lanes()[last];
+  const auto is_dearer = [&](const Lane& lane) {
+    return lane.pass() > 0 && std::ranges::any_of(efforts(), [&](const EffortRow& row) {
+             return row.of(lane.history().back(), lane.film().size()) >
+                    row.of(baseline.history().back(), lane.film().size());
+           });
+  };
+  while (baseline.pass() > 0 && baseline.plan().total > 0 &&
+         std::ranges::any_of(asked_lanes(), is_dearer)) {
+    if (!lab_->run_pass_of(last, stop_.get_token())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Writes true errors into the last record of every lane.
+void LabWorker::measure() {
+  const Metric& row = metric(measured_in_);
+  lab_->measure([&](const Film& film) {
+    const RadianceImage image = film.image();
+    return TrueError{row.compute(image, *measured_against_),
+                     energy_error(image, *measured_against_)};
+  });
 }
 
 /// Runs passes until the current request is answered in full, which gives null, or a newer one has
@@ -176,9 +209,10 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
         return mailbox_.take();
       }
       if (measured_against_) {
-        const Metric& row = metric(measured_in_);
-        lab_->measure(
-            [&](const Film& film) { return row.compute(film.image(), *measured_against_); });
+        if (!keep_up_baseline()) {
+          return mailbox_.take();
+        }
+        measure();
       }
       board_.describe(*lab_);
     }
@@ -250,7 +284,7 @@ SampleSource LabWorker::watched(SampleSource trace) {
 }
 
 bool LabWorker::lanes_are_together() const {
-  return std::ranges::all_of(lab_->lanes(),
+  return std::ranges::all_of(asked_lanes(),
                              [&](const Lane& lane) { return lane.pass() == lab_->pass(); });
 }
 

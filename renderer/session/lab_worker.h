@@ -36,6 +36,8 @@ class LabWorker {
   void make_lab();
   void change_lab();
   bool measure_anew();
+  bool keep_up_baseline();
+  void measure();
   std::unique_ptr<Mailbox::Numbered> answer();
   void fail(const char* reason);
 

@@ -27,14 +27,16 @@ struct Snapshot {
   /// What true errors are measured against; null if there is nothing.
   std::shared_ptr<const RadianceImage> reference;
   MetricId metric = MetricId::relmse;    ///< of true errors
-  std::optional<LaneSnapshot> baseline;  ///< uniform sampling; with a reference only
+  /// Uniform sampling, as far as the dearest of the lanes has come, in samples, rays and seconds;
+  /// with a reference only.
+  std::optional<LaneSnapshot> baseline;
 
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
 };
 
 /// Overwrites size, pass and lanes with what the lab looks like now, using again what memory they
 /// have; of true errors it knows nothing. All lanes must be at the same pass. If
-/// `last_is_baseline`, the last of them is what the others are compared with.
+/// `last_is_baseline`, the last of them is what the others are compared with, and may be further.
 void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline = false);
 
 /// The picture of a lane.

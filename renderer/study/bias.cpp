@@ -8,6 +8,7 @@
 #include "renderer/adaptive/run_lab.h"
 #include "renderer/base/interval.h"
 #include "renderer/base/parallel.h"
+#include "renderer/measure/energy.h"
 #include "renderer/trace/store/running_mean.h"
 
 namespace quartet {
@@ -36,14 +37,6 @@ void make_uniform(const SampleSource& source, Uniform& pictures) {
       }
     }
   });
-}
-
-double mean_luminance(const RadianceImage& image) {
-  double sum = 0.0;
-  for (const glm::vec3& pixel : image.pixels()) {
-    sum += double(luminance(pixel));
-  }
-  return sum / double(image.size());
 }
 
 /// Sums over the seeds so far.
@@ -150,7 +143,7 @@ std::vector<BiasRuns> measure_bias(
       runs[i].mean_spp.push_back(mean_spp(last, shown.size()));
       runs[i].mean_rays.push_back(mean_rays(last, shown.size()));
       runs[i].seconds.push_back(last.seconds);
-      runs[i].energy.push_back(mean_luminance(shown) / mean_luminance(other) - 1.0);
+      runs[i].energy.push_back(energy_error(shown, other));
       keep_most(runs[i].rejected, rejected_of(lane, own.seed));
       keep_most(runs[i].capped, capped_pixels(lane));
       runs[i].partial |= lab.partial();

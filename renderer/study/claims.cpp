@@ -190,10 +190,8 @@ class ClaimLab {
     if (!ended) {
       return false;
     }
-    ErrorCurve relmse_curve(std::move(relmse));
-    ErrorCurve flip_curve(std::move(flip));
-    relmse_curve.slope_beyond = slope_of(metric(MetricId::relmse));
-    flip_curve.slope_beyond = slope_of(metric(MetricId::flip));
+    const ErrorCurve relmse_curve(std::move(relmse));
+    const ErrorCurve flip_curve(std::move(flip));
     for (ClaimRun& run : seed.runs) {
       run.uniform_relmse = relmse_curve.error_at(run.seconds);
       run.uniform_flip = flip_curve.error_at(run.seconds);

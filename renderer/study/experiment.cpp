@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "renderer/adaptive/effort.h"
 #include "renderer/adaptive/run_lab.h"
 #include "renderer/base/parallel.h"
+#include "renderer/measure/energy.h"
 
 namespace quartet {
 namespace {
@@ -20,12 +20,25 @@ Lab idle_lab(SampleSource source, int width, int height, LabOptions options,
   return {std::move(source), width, height, std::span(&settings, 1), options};
 }
 
-bool is_measured(MeasureAt at, std::uint32_t pass) {
-  return at == MeasureAt::every_pass ||
-         (at == MeasureAt::powers_of_two && std::has_single_bit(pass));
+bool is_measured(const RunPlan& plan, std::uint32_t pass) {
+  return plan.measure_at == MeasureAt::every_pass ||
+         (plan.measure_at == MeasureAt::powers_of_two && std::has_single_bit(pass)) ||
+         std::ranges::binary_search(plan.also_at, pass);
 }
 
 }  // namespace
+
+double effort_of(Effort effort, const Measurement& run) {
+  switch (effort) {
+    case Effort::seconds:
+      return run.record.seconds;
+    case Effort::rays:
+      return run.mean_rays;
+    case Effort::mean_spp:
+      return run.mean_spp;
+  }
+  return 0.0;
+}
 
 Experiment::Experiment(SampleSource source, int width, int height, const LabOptions& options,
                        std::shared_ptr<const RadianceImage> reference)
@@ -44,6 +57,7 @@ Measurement Experiment::measure(std::span<const MetricId> metrics) const {
     for (const MetricId id : metrics) {
       measurement.values.push_back(metric(id).compute(image, *reference_));
     }
+    measurement.energy = energy_error(image, *reference_);
   }
   return measurement;
 }
@@ -60,7 +74,7 @@ std::optional<std::vector<Measurement>> Experiment::run(
   std::vector<Measurement> measurements;
   const bool ended = run_lab(lab_, stop, [&] {
     const double done = plan.stop.progress(lane(), reference_.get());
-    if (done >= 1.0 || is_measured(plan.measure_at, lane().pass())) {
+    if (done >= 1.0 || is_measured(plan, lane().pass())) {
       measurements.push_back(measure(plan.metrics));
     }
     if (progress) {

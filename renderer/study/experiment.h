@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/adaptive/lab.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/measure/stop_conditions.h"
@@ -20,7 +21,11 @@ struct Measurement {
   double mean_spp = 0.0;
   double mean_rays = 0.0;      ///< a pixel
   std::vector<double> values;  ///< of the metrics that were asked for, in their order
+  double energy = 0.0;         ///< energy_error(), where any metric was asked for
 };
+
+/// What it took: a pixel, but for seconds.
+double effort_of(Effort effort, const Measurement& run);
 
 /// At which passes a run is measured; at its end it always is.
 enum class MeasureAt { end, powers_of_two, every_pass };
@@ -31,6 +36,7 @@ struct RunPlan {
   StopConditions stop;                 ///< the run ends after the first pass where one holds
   std::vector<MetricId> metrics = {};  ///< none: only what a run costs is measured
   MeasureAt measure_at = MeasureAt::end;
+  std::vector<std::uint32_t> also_at = {};  ///< further passes where it is measured, rising
 };
 
 /// Runs lanes one after the other over one store of samples, so that a run costs little but for the

@@ -68,18 +68,64 @@ class SweepProgress {
   std::string what_;
 };
 
-RunPlan uniform_plan(const SweepPlan& plan) {
+/// Passes of the baseline, and at which it is measured.
+struct BaselinePlan {
+  std::uint32_t passes = 1;
+  std::vector<std::uint32_t> measured;  ///< rising
+  bool reaches_all = true;              ///< that other runs took
+};
+
+/// Of a baseline whose passes are `passes`, so that it is measured just before and after it has
+/// taken as many samples, or rays, as each of `ends`. Seconds decide nothing: they are never twice
+/// the same. That they are reached too, a quarter more is run.
+BaselinePlan baseline_plan(std::span<const Measurement> passes, std::span<const Measurement> ends) {
+  BaselinePlan plan;
+  for (const Measurement& end : ends) {
+    for (const Effort effort : {Effort::rays, Effort::mean_spp}) {
+      const auto reached = std::ranges::find_if(passes, [&](const Measurement& pass) {
+        return effort_of(effort, pass) >= effort_of(effort, end);
+      });
+      plan.reaches_all &= reached != passes.end();
+      const auto pass = std::uint32_t(reached - passes.begin()) + 1;
+      plan.measured.push_back(std::max(pass, 2u) - 1);
+      plan.measured.push_back(pass);
+    }
+  }
+  std::ranges::sort(plan.measured);
+  const auto repeated = std::ranges::unique(plan.measured);
+  plan.measured.erase(repeated.begin(), repeated.end());
+  const std::uint32_t last = plan.measured.empty() ? 1 : plan.measured.back();
+  plan.passes = last + (last + 3) / 4;
+  return plan;
+}
+
+/// What uniform sampling gives for what other runs took; nothing if stopped.
+std::optional<std::vector<Measurement>> run_baseline(Experiment& experiment, const SweepPlan& plan,
+                                                     std::span<const Measurement> ends,
+                                                     std::stop_token stop,
+                                                     const std::function<void(double)>& tell) {
   RunPlan run{.settings = default_settings(EstimatorId::uniform),
-              .stop = plan.stop,
-              .metrics = plan.metrics,
-              .measure_at = MeasureAt::powers_of_two};
-  if (run.stop.spp || run.stop.rays || run.stop.seconds || run.stop.error) {
-    run.stop.passes.reset();
+              .stop = {},
+              .measure_at = MeasureAt::every_pass};
+  // A first run, of which only the costs are looked at, finds the passes.
+  BaselinePlan found;
+  found.reaches_all = false;
+  for (std::uint32_t passes = 16; !found.reaches_all; passes *= 2) {
+    run.stop.passes = passes;
+    const auto measured = experiment.run(run, stop);
+    if (!measured) {
+      return std::nullopt;
+    }
+    found = baseline_plan(*measured, ends);
+    if (measured->size() < passes) {
+      break;  // no pixel may take more samples
+    }
   }
-  if (run.stop.spp) {
-    run.settings.max_spp = std::max(run.settings.max_spp, std::uint32_t(std::ceil(*run.stop.spp)));
-  }
-  return run;
+  run.stop.passes = found.passes;
+  run.metrics = plan.metrics;
+  run.measure_at = MeasureAt::powers_of_two;
+  run.also_at = std::move(found.measured);
+  return experiment.run(run, stop, tell);
 }
 
 std::vector<float> true_squared_error(const Experiment& experiment) {
@@ -93,13 +139,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
               std::stop_token stop, SweepProgress& progress, SweepResult& result) {
   const auto tell = [&](double of_run) { progress.update(of_run); };
   std::size_t index = 0;
-  progress.begin_run(index++, fmt::format("seed {}, uniform", seed));
-  auto uniform = experiment.run(uniform_plan(plan), stop, tell);
-  if (!uniform) {
-    return false;
-  }
-  result.uniform.push_back(std::move(*uniform));
-  keep_most(result.rejected, rejected_of(experiment.lane(), seed));
+  std::vector<Measurement> ends;
   const std::vector<float> oracle = oracle_weights(experiment.first_samples(oracle_spp));
   for (const LaneSettings& settings : plan.lane_settings) {
     for (const double factor : sweep_factors(plan)) {
@@ -112,6 +152,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
         return false;
       }
       run.end = measured->back();
+      ends.push_back(run.end);
       keep_most(result.rejected, rejected_of(experiment.lane(), seed));
       keep_most(result.capped, capped_pixels(experiment.lane()));
       run.quality = quality_of(experiment.lane(), true_squared_error(experiment));
@@ -119,6 +160,13 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
       result.runs.push_back(std::move(run));
     }
   }
+  progress.begin_run(index, fmt::format("seed {}, uniform", seed));
+  auto uniform = run_baseline(experiment, plan, ends, stop, tell);
+  if (!uniform) {
+    return false;
+  }
+  result.uniform.push_back(std::move(*uniform));
+  keep_most(result.rejected, rejected_of(experiment.lane(), seed));
   return true;
 }
 
@@ -144,13 +192,23 @@ void set_error(SweepPoint& point, const Runs& runs, const Number& error) {
   }
 }
 
-/// Of one metric of a run, against as-if-alone seconds.
-ErrorCurve error_over_seconds(std::span<const Measurement> run, std::size_t metric) {
+/// Of one metric of a run.
+ErrorCurve error_over(Effort effort, std::span<const Measurement> run, std::size_t metric) {
   std::vector<ErrorCurve::Point> points;
   for (const Measurement& measurement : run) {
-    points.push_back({measurement.record.seconds, measurement.values[metric]});
+    points.push_back({effort_of(effort, measurement), measurement.values[metric]});
   }
   return ErrorCurve(std::move(points));
+}
+
+/// SweepPoint::against_uniform of the runs of a point.
+double against_uniform(std::span<const SweepRun> seeds, const SweepResult& result, Effort effort,
+                       std::size_t metric) {
+  return median_of(seeds, [&](const SweepRun& run) {
+    const std::span baseline = result.uniform[std::size_t(run.seed - result.first_seed)];
+    return run.end.values[metric] /
+           error_over(effort, baseline, metric).error_at(effort_of(effort, run.end));
+  });
 }
 
 }  // namespace
@@ -227,11 +285,7 @@ std::optional<SweepResult> run_sweep(
 
 std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan& plan,
                                      std::size_t metric) {
-  std::vector<ErrorCurve> baselines;
-  for (const std::vector<Measurement>& run : result.uniform) {
-    baselines.push_back(error_over_seconds(run, metric));
-    baselines.back().slope_beyond = slope_of(quartet::metric(plan.metrics[metric]));
-  }
+  const bool is_ratio = quartet::metric(plan.metrics[metric]).scale != MetricScale::decibels;
   const std::size_t a_seed = result.runs.size() / result.uniform.size();
   std::vector<SweepPoint> points;
   for (std::size_t i = 0; i < a_seed; ++i) {
@@ -244,12 +298,12 @@ std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan&
     point.mean_spp = median_of(seeds, [](const SweepRun& run) { return run.end.mean_spp; });
     point.mean_rays = median_of(seeds, [](const SweepRun& run) { return run.end.mean_rays; });
     set_error(point, seeds, [&](const SweepRun& run) { return run.end.values[metric]; });
-    point.against_uniform = median_of(seeds, [&](const SweepRun& run) {
-      const ErrorCurve& baseline = baselines[std::size_t(run.seed - result.first_seed)];
-      return quartet::metric(plan.metrics[metric]).scale == MetricScale::decibels
-                 ? std::numeric_limits<double>::quiet_NaN()
-                 : run.end.values[metric] / baseline.error_at(run.end.record.seconds);
-    });
+    point.energy = median_of(seeds, [](const SweepRun& run) { return run.end.energy; });
+    for (const EffortRow& effort : efforts()) {
+      point.against_uniform[std::size_t(effort.key)] =
+          is_ratio ? against_uniform(seeds, result, effort.key, metric)
+                   : std::numeric_limits<double>::quiet_NaN();
+    }
     points.push_back(point);
   }
   return points;
@@ -257,20 +311,25 @@ std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan&
 
 std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t metric) {
   std::vector<SweepPoint> points;
-  for (std::size_t i = 0; i < result.uniform.front().size(); ++i) {
+  for (const Measurement& first : result.uniform.front()) {
     std::vector<Measurement> seeds;
     for (const std::vector<Measurement>& run : result.uniform) {
-      // Seeds that end at a number of seconds have different numbers of passes.
-      if (i < run.size()) {
-        seeds.push_back(run[i]);
+      const auto same = std::ranges::find(run, first.record.pass,
+                                          [](const Measurement& m) { return m.record.pass; });
+      if (same != run.end()) {
+        seeds.push_back(*same);
       }
+    }
+    if (seeds.size() < result.uniform.size()) {
+      continue;
     }
     SweepPoint point{.settings = default_settings(EstimatorId::uniform)};
     point.seconds = median_of(seeds, [](const Measurement& m) { return m.record.seconds; });
     point.mean_spp = median_of(seeds, [](const Measurement& m) { return m.mean_spp; });
     point.mean_rays = median_of(seeds, [](const Measurement& m) { return m.mean_rays; });
     set_error(point, seeds, [&](const Measurement& m) { return m.values[metric]; });
-    point.against_uniform = 1.0;
+    point.energy = median_of(seeds, [](const Measurement& m) { return m.energy; });
+    point.against_uniform.fill(1.0);
     points.push_back(point);
   }
   return points;

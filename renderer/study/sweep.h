@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -47,9 +48,8 @@ struct SweepPlan {
   double low = 0.1;  ///< factor on the default thresholds
   double high = 10.0;
   std::uint32_t seeds = 3;
-  /// The end of each run. A run of the uniform baseline goes on until it has taken as many samples,
-  /// rays or seconds, as the dearest run may, so that it can be compared with all: passes do not
-  /// end it where another condition does.
+  /// The end of each run. The uniform baseline goes on until it has taken more samples and rays
+  /// than the dearest run, so that all are compared with what it really gives for the same.
   StopConditions stop;
   std::vector<MetricId> metrics{MetricId::relmse};
 };
@@ -66,7 +66,8 @@ struct SweepRun {
 
 struct SweepResult {
   std::vector<SweepRun> runs;  ///< seed by seed, lane by lane, by rising thresholds
-  /// The baseline, one run a seed, at powers of two of its passes and at its end.
+  /// The baseline, one run a seed, at powers of two of its passes, at those next to where other
+  /// runs ended, and at its end.
   std::vector<std::vector<Measurement>> uniform;
   std::uint64_t first_seed = 0;
   std::uint64_t samples_traced = 0;
@@ -94,15 +95,17 @@ struct SweepPoint {
   double error = 0.0;      ///< median
   double error_low = 0.0;
   double error_high = 0.0;
-  /// Median over the seeds of the error over that of uniform sampling with the same seed after the
-  /// same as-if-alone seconds: below 1 it beats uniform at equal time. NaN for metrics in decibels.
-  double against_uniform = 0.0;
+  double energy = 0.0;  ///< median of energy_error()
+  /// By Effort: median over the seeds of the error over that of uniform sampling with the same seed
+  /// at the same effort, between two of its passes: below 1 it beats uniform. NaN for metrics in
+  /// decibels, for rays where nothing is traced, and where uniform took fewer seconds.
+  std::array<double, 3> against_uniform = {};
 };
 
 /// Points of all lanes, in the order of the plan, by rising thresholds.
 std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan& plan,
                                      std::size_t metric);
-/// Those of the baseline, by rising passes.
+/// Those of the baseline, by rising passes: the ones at which all seeds were measured.
 std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t metric);
 
 /// Those that no other point beats in both time and error, by rising time: the Pareto front.

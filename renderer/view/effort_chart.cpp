@@ -25,7 +25,7 @@ std::vector<glm::dvec2> curve_of(const LaneSnapshot& lane, const Snapshot& snaps
   std::vector<glm::dvec2> points;
   for (const PassRecord& record : lane.history) {
     const double x = effort_row(effort).of(record, snapshot.pixels());
-    const double y = record.true_error;
+    const double y = record.truth.error;
     if (x > 0.0 && y > 0.0 && std::isfinite(y)) {
       points.emplace_back(x, y);
     }
@@ -84,10 +84,9 @@ Chart effort_chart(const Snapshot& snapshot, const EffortChart& what) {
       chart.lines.push_back(std::move(line));
     }
   };
-  std::vector<glm::dvec2> uniform;
   if (snapshot.baseline) {
-    uniform = curve_of(*snapshot.baseline, snapshot, what.effort);
-    add(line_of(uniform, baseline_color, "uniform", -1));
+    add(line_of(curve_of(*snapshot.baseline, snapshot, what.effort), baseline_color, "uniform",
+                -1));
   }
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
@@ -107,21 +106,8 @@ Chart effort_chart(const Snapshot& snapshot, const EffortChart& what) {
          text_color});
     return chart;
   }
-  if (!uniform.empty() && uniform.back().x < x.high) {
-    if (const auto end = baseline_error(snapshot, what.effort, x.high)) {
-      const std::string how = row.scale == MetricScale::squared_error ? "1/samples" : "1/√samples";
-      Line beyond =
-          line_of({uniform.back(), {x.high, *end}}, baseline_color, "uniform, as " + how, -1);
-      beyond.dashed = true;
-      beyond.dots = false;
-      add(std::move(beyond));
-      chart.texts.push_back({{0.99, 0.97},
-                             Align::right,
-                             fmt::format("white: uniform sampling; dashed: taken to fall as {} "
-                                         "beyond what was measured",
-                                         how),
-                             text_color});
-    }
+  if (snapshot.baseline) {
+    chart.texts.push_back({{0.99, 0.97}, Align::right, "white: uniform sampling", text_color});
   }
   if (what.noise_floor && (!is_logarithmic(row) || *what.noise_floor > 0.0)) {
     y.include(*what.noise_floor);
@@ -138,28 +124,23 @@ std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, do
   if (!snapshot.baseline || !(at > 0.0) || !is_logarithmic(metric(snapshot.metric))) {
     return std::nullopt;
   }
-  const std::vector<glm::dvec2> points = curve_of(*snapshot.baseline, snapshot, effort);
-  if (points.empty() || at < points.front().x) {
-    return std::nullopt;
-  }
   std::vector<ErrorCurve::Point> measured;
-  measured.reserve(points.size());
-  for (const glm::dvec2& point : points) {
+  for (const glm::dvec2& point : curve_of(*snapshot.baseline, snapshot, effort)) {
     measured.push_back({point.x, point.y});
   }
-  ErrorCurve curve(std::move(measured));
-  curve.slope_beyond = slope_of(metric(snapshot.metric));
-  return curve.error_at(at);
+  const double error = ErrorCurve(std::move(measured)).error_at(at);
+  return std::isnan(error) ? std::nullopt : std::optional(error);
 }
 
-std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane) {
+std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane, Effort effort) {
   const LaneSnapshot& shown = snapshot.lanes[lane];
-  if (shown.history.empty() || !(shown.history.back().true_error > 0.0)) {
+  if (shown.history.empty() || !(shown.history.back().truth.error > 0.0)) {
     return std::nullopt;
   }
   const PassRecord& last = shown.history.back();
-  const auto uniform = baseline_error(snapshot, Effort::seconds, last.seconds);
-  return uniform ? std::optional(*uniform / last.true_error) : std::nullopt;
+  const auto uniform =
+      baseline_error(snapshot, effort, effort_row(effort).of(last, snapshot.pixels()));
+  return uniform ? std::optional(*uniform / last.truth.error) : std::nullopt;
 }
 
 }  // namespace quartet

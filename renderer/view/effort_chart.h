@@ -17,18 +17,17 @@ struct EffortChart {
 };
 
 /// Error over effort, log–log: a line a lane (id: its number), the uniform baseline as far as it
-/// was measured and beyond that dashed, as errors of samples at random fall, and the noise floor.
+/// was measured, and the noise floor.
 /// Of decibels the vertical axis is linear. Empty, with a text that says so, for a snapshot without
 /// errors.
 Chart effort_chart(const Snapshot& snapshot, const EffortChart& what);
 
 /// What uniform sampling reaches with this much effort: measured points are joined by straight
-/// lines in log–log; beyond the last one by the slope of samples at random. None before the first
-/// one, and for decibels.
+/// lines in log–log. None before the first and beyond the last one, and for decibels.
 std::optional<double> baseline_error(const Snapshot& snapshot, Effort effort, double at);
 
-/// How many times uniform sampling's error, after the same seconds, is that of a lane. None without
+/// How many times uniform sampling's error, at the same effort, is that of a lane. None without
 /// either.
-std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane);
+std::optional<double> times_uniform(const Snapshot& snapshot, std::size_t lane, Effort effort);
 
 }  // namespace quartet

@@ -64,28 +64,9 @@ glm::dvec2 place(const SweepPoint& point, Cost cost) {
 }
 
 void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
-  const Metric& row = metric(summary.metric);
-  Line measured{.label = "", .color = sweep_baseline_color, .points = {}};
+  Line line{.label = "uniform", .color = sweep_baseline_color, .points = {}, .dashed = true};
   for (const SweepPoint& point : summary.uniform) {
-    measured.points.push_back(place(point, cost));
-    chart.marks.push_back(
-        {"uniform, measured", sweep_baseline_color, place(point, cost), MarkShape::dot});
-  }
-  if (row.scale == MetricScale::decibels) {
-    measured.label = "uniform";
-    measured.dashed = true;
-    chart.lines.push_back(std::move(measured));
-    return;
-  }
-  const double slope = slope_of(row);
-  const glm::dvec2 last = measured.points.back();
-  Line line{.label = fmt::format("uniform, slope {} through its last point",
-                                 row.scale == MetricScale::squared_error ? "−1" : "−½"),
-            .color = sweep_baseline_color,
-            .points = {},
-            .dashed = true};
-  for (const double x : {chart.x.min, chart.x.max}) {
-    line.points.emplace_back(x, last.y * std::pow(x / last.x, slope));
+    line.points.push_back(place(point, cost));
   }
   chart.lines.push_back(std::move(line));
 }

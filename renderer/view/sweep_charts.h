@@ -12,7 +12,7 @@ namespace quartet {
 /// What a sweep's charts show, worked out once.
 struct SweepSummary {
   std::vector<SweepPoint> points;   ///< of all lanes
-  std::vector<SweepPoint> uniform;  ///< at powers of two of its passes
+  std::vector<SweepPoint> uniform;  ///< the baseline, by rising passes
   std::vector<SweepPoint> front;    ///< of points and uniform
   MetricId metric = MetricId::relmse;
   std::uint32_t seeds = 1;
@@ -23,8 +23,8 @@ SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::si
 
 /// Error against as-if-alone seconds, mean rays and mean samples per pixel, on logarithmic axes: a
 /// line a lane through its thresholds with a band from the lowest to the highest seed, the
-/// default threshold marked, the uniform baseline as a line of its slope through its last point,
-/// with what was measured of it as dots, and the reference's noise floor. In colours for paper.
+/// default threshold marked, the uniform baseline dashed, as it was measured, and the reference's
+/// noise floor. In colours for paper.
 std::vector<Chart> sweep_charts(const SweepSummary& summary);
 
 /// What an estimator is worth pixel by pixel: mean true squared error against the estimated one in

@@ -22,7 +22,7 @@ TEST(PassHistory, ALongRunIsThinnedEvenlyAndKeepsItsLastPass) {
     history.push({.pass = pass,
                   .samples = 3 * std::uint64_t(pass),
                   .seconds = 0.25 * pass,
-                  .true_error = 1.0 / pass},
+                  .truth = {.error = 1.0 / pass}},
                  work);
     ASSERT_LE(history.records().size(), PassHistory::most_records);
     ASSERT_EQ(history.records().back().pass, pass);
@@ -36,7 +36,7 @@ TEST(PassHistory, ALongRunIsThinnedEvenlyAndKeepsItsLastPass) {
   for (std::size_t i = 0; i + 1 < records.size(); ++i) {
     EXPECT_EQ(records[i].pass, stride * (i + 1));
     EXPECT_EQ(records[i].samples, 3 * std::uint64_t(records[i].pass));
-    EXPECT_EQ(records[i].true_error, 1.0 / records[i].pass);
+    EXPECT_EQ(records[i].truth.error, 1.0 / records[i].pass);
     EXPECT_EQ(records[i].tracing_seconds, 5.0 * records[i].pass);
     EXPECT_EQ(records[i].seconds, 5.25 * records[i].pass);
   }

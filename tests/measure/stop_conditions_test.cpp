@@ -130,7 +130,7 @@ TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   lane.plan.total = 40;
   for (std::uint32_t pass = 1; pass <= 12; ++pass) {
     lane.history.push_back(record(pass, 2.0 * pass, 0.1 * pass));
-    lane.history.back().true_error = 1.0 / pass;
+    lane.history.back().truth.error = 1.0 / pass;
     lane.history.back().rays = 3 * lane.history.back().samples;
   }
   expect_end(7, passes(7), lane);
@@ -145,7 +145,7 @@ TEST(StopConditions, TheEndIsFoundInTheHistoryOfALane) {
   stop.error = ErrorTarget{MetricId::mse, 0.125};
   expect_end(8, stop, lane);
   for (PassRecord& each : lane.history) {
-    each.true_error = std::nan("");
+    each.truth.error = std::nan("");
   }
   expect_end(12, stop, lane);
   EXPECT_EQ(passes(13).end_of(lane), std::nullopt);
@@ -170,7 +170,7 @@ TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
     ASSERT_TRUE(lab.run_pass());
     lab.measure([&](const Film& film) {
       // Distinct at every pass, so that a record's error tells whose it is.
-      return metric(MetricId::mse).compute(film.image(), truth) + 1.0 / lab.pass();
+      return TrueError{metric(MetricId::mse).compute(film.image(), truth) + 1.0 / lab.pass()};
     });
   }
   LaneSnapshot lane;
@@ -178,7 +178,7 @@ TEST(StopConditions, AnEndThatWasMetIsFoundInALongRunThatWasThinned) {
   ASSERT_LE(lane.history.size(), PassHistory::most_records);
   for (const PassRecord& each : lane.history) {
     const double odd = each.pass % 2 == 1 ? 1.0 / (double(each.pass) * each.pass) : 0.0;
-    ASSERT_NEAR(each.true_error, 1.0 / each.pass + odd, 1e-6);
+    ASSERT_NEAR(each.truth.error, 1.0 / each.pass + odd, 1e-6);
   }
   StopConditions stop;
   stop.error = ErrorTarget{MetricId::mse, 1.0 / 6000.5};

@@ -123,7 +123,14 @@ TEST(CsvRecord, HasEveryNumberInItsColumn) {
   // Off by 0.75, 0, 0.25 and 0.25, 0.25, 0.75.
   const double mse = (2 * 0.5625 + 3 * 0.0625) / 6.0;
   expected.push_back(fmt::format("efficiency {:.9g}", 1.0 / (mse * 2.5)));
+  ASSERT_FALSE(errors.empty());
+  const std::string energy = errors.back();
+  errors.pop_back();
   EXPECT_EQ(errors, expected);
+  // Luminances of the truth: 0.4275 and 0.5361.
+  const std::string name = "energy_error ";
+  ASSERT_TRUE(energy.starts_with(name)) << energy;
+  EXPECT_NEAR(std::stod(energy.substr(name.size())), 0.25 / 0.4818 - 1.0, 1e-6);
   EXPECT_EQ(errors.front(), fmt::format("mse {:.9g}", mse));
 }
 
@@ -145,7 +152,7 @@ TEST(JsonRecord, HasEveryNumberUnderItsName) {
   ASSERT_EQ(record.at("lanes").size(), 2u);
 
   json lane = record.at("lanes")[0];
-  EXPECT_EQ(lane.at("metrics").size(), metrics().size() + 1);
+  EXPECT_EQ(lane.at("metrics").size(), metrics().size() + 2) << "efficiency and energy_error";
   lane.erase("metrics");
   EXPECT_EQ(lane.at("unit"), estimator(EstimatorId::contrast).unit);
   lane.erase("unit");

@@ -17,6 +17,7 @@ Measurement counted_measurement(std::uint32_t pass, double first) {
   measurement.record.seconds = first + 0.5;
   measurement.mean_spp = first + 0.25;
   measurement.values = {first + 2, first + 3};
+  measurement.energy = first + 4;
   return measurement;
 }
 
@@ -50,17 +51,22 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
            "mean_spp,metric,value"),
           uniform + "40,1,10.500000,14,11,10.250000,mse,12",
           uniform + "40,1,10.500000,14,11,10.250000,flip,13",
+          uniform + "40,1,10.500000,14,11,10.250000,energy_error,14",
           uniform + "40,2,20.500000,24,21,20.250000,mse,22",
           uniform + "40,2,20.500000,24,21,20.250000,flip,23",
+          uniform + "40,2,20.500000,24,21,20.250000,energy_error,24",
           uniform + "41,1,30.500000,34,31,30.250000,mse,32",
           uniform + "41,1,30.500000,34,31,30.250000,flip,33",
+          uniform + "41,1,30.500000,34,31,30.250000,energy_error,34",
           kl + "40,5,40.500000,44,41,40.250000,mse,42",
           kl + "40,5,40.500000,44,41,40.250000,flip,43",
+          kl + "40,5,40.500000,44,41,40.250000,energy_error,44",
           kl + "40,5,40.500000,44,41,40.250000,rank_correlation,0.125000",
           kl + "40,5,40.500000,44,41,40.250000,false_stops,0.375000",
           kl + "40,5,40.500000,44,41,40.250000,oracle_distance,0.750000",
           kl + "41,5,50.500000,54,51,50.250000,mse,52",
           kl + "41,5,50.500000,54,51,50.250000,flip,53",
+          kl + "41,5,50.500000,54,51,50.250000,energy_error,54",
           kl + "41,5,50.500000,54,51,50.250000,false_stops,0.625000",
           kl + "41,5,50.500000,54,51,50.250000,oracle_distance,0.625000",
       });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/measure/metrics.h"
 #include "tests/session/session_cases.h"
 #include "tests/session/true_errors.h"
@@ -20,16 +21,16 @@ std::shared_ptr<const RadianceImage> picture_of(float level, int w = width, int 
   return std::make_shared<const RadianceImage>(w, h, glm::vec3(level));
 }
 
-/// What a lab without a session says of the errors.
-std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
+/// What a lab without a session says of the errors after each of so many passes.
+std::vector<std::vector<double>> headless_errors(const LabRequest& request,
+                                                 std::span<const LaneSettings> lane_settings,
+                                                 std::uint32_t passes) {
   LabOptions options;
   options.threads = 1;
-  std::vector<LaneSettings> lane_settings = request.lanes.settings;
-  lane_settings.push_back(default_settings(EstimatorId::uniform));
   Lab lab(sample_source(request.store.scene, request.store.settings), request.store.settings.width,
           request.store.settings.height, lane_settings, options);
   std::vector<std::vector<double>> errors(lane_settings.size());
-  while (lab.pass() < request.lanes.pass) {
+  while (lab.pass() < passes) {
     lab.run_pass();
     for (std::size_t i = 0; i < errors.size(); ++i) {
       errors[i].push_back(metric(request.lanes.metric)
@@ -39,21 +40,44 @@ std::vector<std::vector<double>> headless_errors(const LabRequest& request) {
   return errors;
 }
 
+/// Uniform sampling as far as the dearest lane, with the errors of a run alone where it has any.
+void expect_baseline(const Snapshot& snapshot, const LabRequest& request) {
+  const LaneSnapshot& baseline = *snapshot.baseline;
+  const LaneSettings uniform = default_settings(EstimatorId::uniform);
+  EXPECT_EQ(baseline.settings, uniform);
+  const auto alone =
+      headless_errors(request, std::span(&uniform, 1), baseline.history.back().pass).front();
+  for (const EffortRow& row : efforts()) {
+    for (const LaneSnapshot& lane : snapshot.lanes) {
+      EXPECT_GE(row.of(baseline.history.back(), snapshot.pixels()),
+                row.of(lane.history.back(), snapshot.pixels()))
+          << row.id;
+    }
+  }
+  std::size_t compared = 0;
+  for (const PassRecord& record : baseline.history) {
+    EXPECT_EQ(record.samples, std::uint64_t(record.pass) * snapshot.pixels());
+    if (!std::isnan(record.truth.error)) {
+      EXPECT_EQ(record.truth.error, alone[record.pass - 1]);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0u);
+  EXPECT_FALSE(std::isnan(baseline.history.back().truth.error)) << "the last is measured";
+}
+
 void expect_errors(Session& session, const LabRequest& request) {
   const auto snapshot = answer(session, request);
   ASSERT_TRUE(snapshot);
   EXPECT_EQ(snapshot->reference, request.lanes.reference);
   EXPECT_EQ(snapshot->metric, request.lanes.metric);
-  const auto errors = headless_errors(request);
+  const auto errors = headless_errors(request, request.lanes.settings, request.lanes.pass);
   ASSERT_EQ(snapshot->lanes.size(), request.lanes.settings.size());
   ASSERT_TRUE(snapshot->baseline);
   for (std::size_t i = 0; i < snapshot->lanes.size(); ++i) {
     EXPECT_EQ(true_errors(snapshot->lanes[i]), errors[i]) << "lane " << i + 1;
   }
-  EXPECT_EQ(true_errors(*snapshot->baseline), errors.back());
-  EXPECT_EQ(snapshot->baseline->settings, default_settings(EstimatorId::uniform));
-  EXPECT_EQ(snapshot->baseline->history.back().samples,
-            std::uint64_t(request.lanes.pass) * snapshot->pixels());
+  expect_baseline(*snapshot, request);
   expect_same(*snapshot, headless(request));
 }
 
@@ -62,7 +86,7 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
   LabRequest request = four_lanes();
   ASSERT_TRUE(answer(session, request));
   EXPECT_FALSE(session.latest()->baseline);
-  EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.back().true_error));
+  EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.back().truth.error));
   {
     SCOPED_TRACE("a reference for passes that have been run");
     request.lanes.reference = picture_of(0.5f);
@@ -108,7 +132,7 @@ TEST(SessionThreads, ErrorsFollowEachKindOfChange) {
     expect_as_headless(session, request);
     EXPECT_FALSE(session.latest()->baseline);
     EXPECT_FALSE(session.latest()->reference);
-    EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.front().true_error));
+    EXPECT_TRUE(std::isnan(session.latest()->lanes[0].history.front().truth.error));
   }
 }
 

@@ -10,7 +10,7 @@ namespace quartet::test {
 inline std::vector<double> true_errors(const LaneSnapshot& lane) {
   std::vector<double> errors;
   for (const PassRecord& record : lane.history) {
-    errors.push_back(record.true_error);
+    errors.push_back(record.truth.error);
   }
   return errors;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/base/interval.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/study/calibrate.h"
@@ -101,10 +102,20 @@ TEST(Sweep, ARunIsThatOfALabAlone) {
   EXPECT_EQ(end.values, run.end.values);
 }
 
-TEST(Sweep, TheBaselineGoesOnToTheCostOfTheDearest) {
-  for (const std::vector<Measurement>& run : small_result().uniform) {
-    EXPECT_EQ(run.back().mean_spp, 20.0) << "the passes of the others do not end it";
-    EXPECT_EQ(run.front().record.pass, 1u);
+TEST(Sweep, TheBaselineIsMeasuredAroundTheSamplesOfEachRun) {
+  const SweepResult& result = small_result();
+  for (std::size_t k = 0; k < result.uniform.size(); ++k) {
+    const std::vector<Measurement>& uniform = result.uniform[k];
+    EXPECT_EQ(uniform.front().record.pass, 1u);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double spp = result.runs[6 * k + i].end.mean_spp;
+      const auto after = std::ranges::lower_bound(uniform, spp, {}, &Measurement::mean_spp);
+      ASSERT_NE(after, uniform.end());
+      EXPECT_LT(after->mean_spp - spp, 1.0) << "a pass is a sample a pixel";
+      if (after != uniform.begin()) {
+        EXPECT_LE(spp - (after - 1)->mean_spp, 1.0);
+      }
+    }
   }
 }
 
@@ -117,7 +128,7 @@ TEST(Sweep, TracesLittleMoreThanItsDearestRun) {
   for (const std::vector<Measurement>& run : result.uniform) {
     used += run.back().record.samples;
   }
-  EXPECT_EQ(result.samples_used, used);
+  EXPECT_GT(result.samples_used, used) << "a run of the baseline finds out how far it has to go";
   EXPECT_LT(result.samples_traced, used / 3);
   EXPECT_FALSE(result.partial);
 }
@@ -166,14 +177,14 @@ TEST(SweepPoints, AreMediansOverSeedsWithTheirRange) {
     EXPECT_EQ(points[i].error_low, errors[0]);
     EXPECT_EQ(points[i].error, errors[1]);
     EXPECT_EQ(points[i].error_high, errors[2]);
-    EXPECT_GT(points[i].against_uniform, 0.0);
+    EXPECT_GT(points[i].against_uniform[std::size_t(Effort::mean_spp)], 0.0);
   }
   // Higher thresholds, fewer samples.
   EXPECT_GT(points[0].mean_spp, points[1].mean_spp);
   EXPECT_GE(points[1].mean_spp, points[2].mean_spp);
 }
 
-TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
+TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualEffort) {
   SweepPlan plan = small_plan();
   plan.lane_settings = {default_settings(EstimatorId::kl)};
   plan.thresholds = 1;
@@ -184,6 +195,8 @@ TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
   const auto measured = [](double seconds, double error) {
     Measurement measurement;
     measurement.record.seconds = seconds;
+    measurement.mean_spp = 10.0 * seconds;
+    measurement.mean_rays = 20.0 * seconds * seconds;
     measurement.values = {error};
     return measurement;
   };
@@ -196,7 +209,9 @@ TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualTime) {
   }
   const auto points = sweep_points(result, plan, 0);
   ASSERT_EQ(points.size(), 1u);
-  EXPECT_NEAR(points[0].against_uniform, 0.5, 1e-12);
+  for (const double ratio : points[0].against_uniform) {
+    EXPECT_NEAR(ratio, 0.5, 1e-12);
+  }
   EXPECT_NEAR(points[0].error, 1.0 / 3.0, 1e-12);
 }
 
@@ -215,11 +230,17 @@ TEST(SweepPoints, OfThreeSeedsByHand) {
     measurement.values = {mse, rmse, psnr};
     return measurement;
   };
-  // Uniform sampling after 1 and 4 s; the second seed has a third measurement.
+  const auto at_pass = [](std::uint32_t pass, Measurement measurement) {
+    measurement.record.pass = pass;
+    return measurement;
+  };
+  // Uniform sampling at passes 2 and 4; the second seed was measured once more.
   result.uniform = {
-      {measured(1, 10, 8, 80, 30), measured(4, 40, 2, 40, 36)},
-      {measured(1.5, 11, 6, 60, 31), measured(6, 44, 1.5, 30, 37), measured(9, 66, 1, 20, 39)},
-      {measured(3, 30, 4, 50, 33), measured(5, 50, 1.25, 25, 38)}};
+      {at_pass(2, measured(1, 10, 8, 80, 30)), at_pass(4, measured(4, 40, 2, 40, 36))},
+      {at_pass(2, measured(1.5, 11, 6, 60, 31)),
+       at_pass(3, measured(3, 22, 3, 60 / std::sqrt(2), 34)),
+       at_pass(4, measured(6, 44, 1.5, 30, 37))},
+      {at_pass(2, measured(3, 30, 4, 50, 33)), at_pass(4, measured(5, 50, 1.25, 25, 38))}};
   const auto add = [&](std::uint64_t seed, const Measurement& end) {
     SweepRun run{.settings = plan.lane_settings[0], .seed = seed};
     run.end = end;
@@ -227,40 +248,41 @@ TEST(SweepPoints, OfThreeSeedsByHand) {
   };
   add(100, measured(2, 20, 1, 100, 35));
   add(101, measured(3, 28, 6, 15, 32));
-  add(102, measured(13, 90, 0.5, 50, 40));
+  add(102, measured(4, 90, 0.5, 50, 40));
 
   const auto mse = sweep_points(result, plan, 0);
   ASSERT_EQ(mse.size(), 1u);
   EXPECT_EQ(mse[0].settings, plan.lane_settings[0]);
   EXPECT_EQ(mse[0].factor, 1.0);
-  EXPECT_EQ(mse[0].seconds, 3.0) << "the mean is 6";
+  EXPECT_EQ(mse[0].seconds, 3.0);
   EXPECT_EQ(mse[0].mean_spp, 28.0) << "the mean is 46";
   EXPECT_EQ(mse[0].error, 1.0);
   EXPECT_EQ(mse[0].error_low, 0.5);
   EXPECT_EQ(mse[0].error_high, 6.0);
-  // Uniform sampling: 8/s, so 4 after 2 s; 9/s, so 3 after 3 s; after 13 s, beyond its last
-  // measurement, 1.25 · 5 / 13. Ratios: 1/4, 2 and 0.5 · 13 / 6.25 = 1.04.
-  EXPECT_NEAR(mse[0].against_uniform, 1.04, 1e-12);
+  // Uniform sampling: 8/s, so 4 after 2 s; 9/s, so 3 after 3 s; 4 (s/3)^-2.2764 between 3 and 5 s,
+  // so 2.0780 after 4 s. Ratios: 1/4, 2 and 0.2406.
+  EXPECT_NEAR(mse[0].against_uniform[std::size_t(Effort::seconds)], 0.25, 1e-12);
   const auto rmse = sweep_points(result, plan, 1);
   EXPECT_EQ(rmse[0].error, 50.0);
   EXPECT_EQ(rmse[0].error_low, 15.0);
   EXPECT_EQ(rmse[0].error_high, 100.0);
-  // 80 falls to 40 as 1/√s: 80 / √2 after 2 s. 60 to 30 too: 60 / √2 after 3 s. Beyond the last, 25
-  // falls by √(5/13). Ratios: 1.77, 0.35 and 3.2.
-  EXPECT_NEAR(rmse[0].against_uniform, 100.0 / 80.0 * std::sqrt(2.0), 1e-9);
+  // 80 falls to 40 as 1/√s: 80 / √2 after 2 s. 60 to 30 too: 60 / √2 after 3 s. 50 falls to 25 as
+  // s^-1.357 from 3 to 5 s: 33.84 after 4 s. Ratios: 1.77, 0.35 and 1.48.
+  EXPECT_NEAR(rmse[0].against_uniform[std::size_t(Effort::seconds)],
+              std::pow(4.0 / 3.0, std::log(2.0) / std::log(5.0 / 3.0)), 1e-9);
   const auto psnr = sweep_points(result, plan, 2);
   EXPECT_EQ(psnr[0].error, 35.0);
-  EXPECT_TRUE(std::isnan(psnr[0].against_uniform)) << "of decibels there is no ratio";
+  EXPECT_TRUE(std::isnan(psnr[0].against_uniform[0])) << "of decibels there is no ratio";
 
   const auto uniform = uniform_points(result, 0);
-  ASSERT_EQ(uniform.size(), 2u) << "as many as the first seed has";
+  ASSERT_EQ(uniform.size(), 2u) << "the passes that all seeds have";
   EXPECT_EQ(uniform[0].settings.estimator, EstimatorId::uniform);
   EXPECT_EQ(uniform[0].seconds, 1.5);
   EXPECT_EQ(uniform[0].mean_spp, 11.0);
   EXPECT_EQ(uniform[0].error, 6.0);
   EXPECT_EQ(uniform[0].error_low, 4.0);
   EXPECT_EQ(uniform[0].error_high, 8.0);
-  EXPECT_EQ(uniform[0].against_uniform, 1.0);
+  EXPECT_EQ(uniform[0].against_uniform[0], 1.0);
   EXPECT_EQ(uniform[1].seconds, 5.0);
   EXPECT_EQ(uniform[1].mean_spp, 44.0);
   EXPECT_EQ(uniform[1].error, 1.5);
@@ -370,12 +392,9 @@ TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
     EXPECT_EQ(chart.bands.size(), 2u);
     ASSERT_EQ(chart.levels.size(), 1u);
     EXPECT_EQ(chart.levels[0].value, 1e-5);
-    // The baseline has slope −1 on these axes.
     const auto baseline = std::ranges::find(chart.lines, true, &Line::dashed);
     ASSERT_NE(baseline, chart.lines.end());
-    const glm::dvec2 a = baseline->points.front();
-    const glm::dvec2 b = baseline->points.back();
-    EXPECT_NEAR(std::log(b.y / a.y) / std::log(b.x / a.x), -1.0, 1e-9);
+    EXPECT_EQ(baseline->points.size(), uniform_points(small_result(), 0).size()) << "as measured";
   }
 }
 
@@ -395,9 +414,6 @@ TEST(SweepCharts, OfTracedSamplesHaveOneAgainstRays) {
   for (std::size_t i = 0; i < charts[1].lines.size(); ++i) {
     const Line& rays = charts[1].lines[i];
     const Line& samples = charts[2].lines[i];
-    if (rays.dashed) {
-      continue;  // the baseline: from one end of the axis to the other
-    }
     ASSERT_EQ(rays.points.size(), samples.points.size());
     for (std::size_t k = 0; k < rays.points.size(); ++k) {
       EXPECT_NEAR(rays.points[k].x / samples.points[k].x, 7.0, 1e-9);

@@ -52,7 +52,7 @@ TEST(Dock, AReferenceIsComputedAndOpensItWhereThereIsRoom) {
     for (const LaneSnapshot& lane : tall.snapshot().lanes) {
       ASSERT_EQ(lane.history.size(), 5u);
       for (const PassRecord& record : lane.history) {
-        EXPECT_GT(record.true_error, 0.0);
+        EXPECT_GT(record.truth.error, 0.0);
       }
     }
   }
@@ -86,11 +86,11 @@ TEST(Dock, MetricAndAxisAreChosen) {
   hand.move(-100.0f, -100.0f);
   EXPECT_EQ(hand.state().dock.effort, Effort::mean_spp);
   EXPECT_NE(hand.pixels("dock.chart"), before);
-  const double relmse = hand.snapshot().lanes[2].history.back().true_error;
+  const double relmse = hand.snapshot().lanes[2].history.back().truth.error;
   hand.choose("dock.metric", "mse");
   hand.settle();
   EXPECT_EQ(hand.snapshot().metric, MetricId::mse);
-  EXPECT_NE(hand.snapshot().lanes[2].history.back().true_error, relmse);
+  EXPECT_NE(hand.snapshot().lanes[2].history.back().truth.error, relmse);
 }
 
 TEST(Dock, ADraggedThresholdMovesItsLanesCurveAlone) {

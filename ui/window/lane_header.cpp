@@ -8,6 +8,7 @@
 
 #include "renderer/adaptive/effort.h"
 #include "renderer/base/number_text.h"
+#include "renderer/measure/metrics.h"
 #include "ui/widgets/imgui_compat.h"
 #include "ui/widgets/table_combo.h"
 #include "ui/widgets/widgets.h"
@@ -180,9 +181,17 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
     return sum;
   }();
   const std::string bad = rejected > 0 ? fmt::format(" · {} rejected", rejected) : "";
+  const Metric& row = metric(frame.snapshot->metric);
+  const std::string error = std::isnan(last.truth.error)
+                                ? ""
+                                : fmt::format(" · {} {:.3g}, energy {:+.1f} %", row.label,
+                                              last.truth.error, 100.0 * last.truth.energy);
   const std::string text = fitting_text(
       frame.ui.small,
-      {fmt::format("max {} spp · {} as if alone · {:.1f} % not done{}", last.max_spp, seconds,
+      {fmt::format("max {} spp · {} as if alone · {:.1f} % not done{}{}", last.max_spp, seconds,
+                   share, error, bad),
+       fmt::format("max {} · {} · {:.0f} %{}{}", last.max_spp, seconds, share, error, bad),
+       fmt::format("max {} spp · {} as if alone · {:.1f} % not done{}", last.max_spp, seconds,
                    share, bad),
        fmt::format("max {} · {} as if alone · {:.1f} % not done{}", last.max_spp, seconds, share,
                    bad),

@@ -20,7 +20,7 @@ void fill(EqualiseForm& form, const Snapshot& snapshot) {
     const PassRecord& last = lane.history.back();
     form.spp += float(mean_spp(last, snapshot.pixels()) / lanes);
     form.seconds += float(last.seconds / lanes);
-    form.error += std::isnan(last.true_error) ? 0.0f : float(last.true_error / lanes);
+    form.error += std::isnan(last.truth.error) ? 0.0f : float(last.truth.error / lanes);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/adaptive/effort.h"
 #include "renderer/measure/metrics.h"
 #include "ui/widgets/imgui_compat.h"
 #include "ui/widgets/widgets.h"
@@ -42,7 +43,7 @@ std::vector<TableRow> lines_of(const LabFrame& frame) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     lines.push_back({fmt::format("{}  {}", i + 1, estimator(lane.settings.estimator).label),
                      lane_color(i), &lane, current ? &frame.evaluation.lanes[i] : nullptr,
-                     times_uniform(snapshot, i)});
+                     times_uniform(snapshot, i, frame.state.dock.effort)});
   }
   if (snapshot.baseline) {
     lines.push_back({"uniform", palette::dim, &*snapshot.baseline,
@@ -54,7 +55,7 @@ std::vector<TableRow> lines_of(const LabFrame& frame) {
 /// The metric of the curves is known for every pass; the others follow once the lanes rest.
 double value_of(const LabFrame& frame, const TableRow& line, const Metric& row) {
   if (row.key == frame.snapshot->metric && !line.lane->history.empty()) {
-    return line.lane->history.back().true_error;
+    return line.lane->history.back().truth.error;
   }
   return line.values && !line.values->empty() ? (*line.values)[row_index(row.key)] : std::nan("");
 }
@@ -77,8 +78,15 @@ std::string seconds_text(double seconds) {
   return seconds < 0.1 ? fmt::format("{:.1f} ms", 1e3 * seconds) : fmt::format("{:.2f} s", seconds);
 }
 
+std::string energy_text(double energy) {
+  return std::isnan(energy) ? "–" : fmt::format("{:+.2f} %", 100.0 * energy);
+}
+
 std::string all_metrics_text(const LabFrame& frame, const TableRow& line) {
   std::string text = line.name;
+  if (!line.lane->history.empty()) {
+    text += fmt::format("\nenergy: {}", energy_text(line.lane->history.back().truth.energy));
+  }
   for (const Metric& row : metrics()) {
     text += fmt::format("\n{}: {}{}{}", row.label, metric_text(value_of(frame, line, row)),
                         row.unit.empty() ? "" : " ", row.unit);
@@ -121,18 +129,27 @@ std::vector<Column> columns_of(const LabFrame& frame, const std::vector<TableRow
         return line.lane->history.empty() ? std::string("–")
                                           : seconds_text(line.lane->history.back().seconds);
       }));
+  columns.push_back(column(
+      "energy",
+      "Mean luminance over that of the reference, less 1. A lane that is too dark may have lost "
+      "its brightest samples, which most metrics take for a gain.",
+      [&](const TableRow& line) {
+        return line.lane->history.empty() ? std::string("–")
+                                          : energy_text(line.lane->history.back().truth.energy);
+      }));
   const std::string chosen(metric(frame.snapshot->metric).label);
   const Column last = column(
       "× uniform",
-      fmt::format(
-          "The {} of uniform sampling after the same seconds, over this lane's: above 1 the "
-          "lane gains. Beyond what was measured, uniform sampling is taken to fall as "
-          "errors of samples at random do.",
-          chosen),
+      fmt::format("The {} of uniform sampling run to the same {}, over this lane's: above 1 the "
+                  "lane gains, if its energy is right.",
+                  chosen, effort_row(frame.state.dock.effort).label),
       [&](const TableRow& line) {
         return line.times_uniform ? fmt::format("{:.2f}", *line.times_uniform) : std::string("–");
       });
-  room -= columns[0].width + columns[1].width + last.width;
+  room -= last.width;
+  for (const Column& made : columns) {
+    room -= made.width;
+  }
   for (const Metric* row : metrics_by_interest(frame.snapshot->metric)) {
     Column made =
         column(std::string(row->label), std::string(row->definition),
