@@ -152,10 +152,6 @@ void add_races(const ClaimsReport& report, std::string& text) {
   }
 }
 
-nlohmann::ordered_json interval_json(const Interval& interval) {
-  return {{"mean", interval.mean}, {"low", interval.low}, {"high", interval.high}};
-}
-
 }  // namespace
 
 std::string claims_text(const ClaimsReport& report) {

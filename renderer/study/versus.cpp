@@ -1,0 +1,207 @@
+#include "renderer/study/versus.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/measure/error_curve.h"
+
+namespace quartet {
+namespace {
+
+StopConditions stop_at(const VersusPlan& plan) {
+  StopConditions stop;
+  switch (plan.effort) {
+    case Effort::seconds:
+      stop.seconds = plan.goal;
+      break;
+    case Effort::rays:
+      stop.rays = plan.goal;
+      break;
+    case Effort::mean_spp:
+      stop.spp = plan.goal;
+      break;
+  }
+  return stop;
+}
+
+ErrorCurve curve_of(const VersusRun& run, Effort effort, std::size_t metric) {
+  std::vector<ErrorCurve::Point> points;
+  points.reserve(run.passes.size());
+  for (const Measurement& pass : run.passes) {
+    points.push_back({effort_of(effort, pass), pass.values[metric]});
+  }
+  return ErrorCurve(std::move(points));
+}
+
+double energy_at(const VersusRun& run, Effort effort, double at) {
+  const auto after = std::ranges::find_if(
+      run.passes, [&](const Measurement& pass) { return effort_of(effort, pass) >= at; });
+  if (after == run.passes.begin() || after == run.passes.end()) {
+    return after == run.passes.end() ? run.passes.back().energy : after->energy;
+  }
+  const double begin = effort_of(effort, *(after - 1));
+  const double share = (at - begin) / (effort_of(effort, *after) - begin);
+  return std::lerp((after - 1)->energy, after->energy, share);
+}
+
+/// Where both lanes were measured: from the later of their first passes to the earlier end.
+std::pair<double, double> common_efforts(const VersusSeed& seed, Effort effort) {
+  double first = 0.0;
+  double last = std::numeric_limits<double>::infinity();
+  for (const VersusRun& run : seed.runs) {
+    first = std::max(first, effort_of(effort, run.passes.front()));
+    last = std::min(last, effort_of(effort, run.passes.back()));
+  }
+  return {first, last};
+}
+
+/// Fills in what is known once both lanes have run.
+void compare(const VersusPlan& plan, VersusSeed& seed) {
+  const auto [first, last] = common_efforts(seed, plan.effort);
+  seed.effort = std::max(first, std::min(last, plan.goal));
+  for (VersusRun& run : seed.runs) {
+    for (std::size_t m = 0; m < plan.metrics.size(); ++m) {
+      // One that was done before the other's first pass has its last error for ever.
+      const double at = std::min(seed.effort, effort_of(plan.effort, run.passes.back()));
+      run.errors.push_back(curve_of(run, plan.effort, m).error_at(at));
+    }
+    run.energy = energy_at(run, plan.effort, seed.effort);
+  }
+}
+
+/// Of pictures that come one a seed.
+class PictureSums {
+ public:
+  void add(const RadianceImage& image) {
+    sums_.resize(image.size());
+    squares_.resize(image.size());
+    for (std::size_t i = 0; i < image.size(); ++i) {
+      const glm::dvec3 x(image.pixels()[i]);
+      sums_[i] += x;
+      squares_[i] += x * x;
+    }
+    ++count_;
+  }
+
+  ErrorParts parts(const RadianceImage& reference) const {
+    const double n = count_;
+    ErrorParts parts;
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const glm::dvec3 mean = sums_[i] / n;
+      const glm::dvec3 off = mean - glm::dvec3(reference.pixels()[i]);
+      const glm::dvec3 variance = (squares_[i] - n * mean * mean) / (n - 1.0);
+      parts.variance += dot(variance, glm::dvec3(1.0 / 3.0));
+      parts.squared_bias += dot(off * off - variance / n, glm::dvec3(1.0 / 3.0));
+    }
+    parts.variance /= double(sums_.size());
+    parts.squared_bias /= double(sums_.size());
+    return parts;
+  }
+
+ private:
+  std::vector<glm::dvec3> sums_;
+  std::vector<glm::dvec3> squares_;
+  double count_ = 0.0;
+};
+
+}  // namespace
+
+std::optional<VersusResult> run_versus(
+    const SampleWorld& world, const VersusPlan& plan, std::stop_token stop,
+    const std::function<void(double, std::string_view)>& progress) {
+  VersusResult result;
+  std::array<PictureSums, 2> sums;
+  for (std::uint32_t k = 0; k < plan.seeds; ++k) {
+    const std::uint64_t seed = world.first_seed + k;
+    Experiment experiment = make_experiment(world, seed);
+    VersusSeed measured;
+    for (std::size_t lane = 0; lane < plan.lanes.size(); ++lane) {
+      const RunPlan run{.settings = plan.lanes[lane],
+                        .stop = stop_at(plan),
+                        .metrics = plan.metrics,
+                        .measure_at = MeasureAt::every_pass};
+      auto passes = experiment.run(run, stop, [&](double done) {
+        if (progress) {
+          const double runs = 2.0 * k + double(lane) + done;
+          progress(runs / (2.0 * plan.seeds), fmt::format("seed {}", seed));
+        }
+      });
+      if (!passes) {
+        return std::nullopt;
+      }
+      measured.runs[lane].passes = std::move(*passes);
+      sums[lane].add(experiment.lane().film().image());
+      keep_most(result.rejected, rejected_of(experiment.lane(), seed));
+      keep_most(result.capped, capped_pixels(experiment.lane()));
+    }
+    result.partial |= experiment.store().partial();
+    compare(plan, measured);
+    result.seeds.push_back(std::move(measured));
+  }
+  for (std::size_t lane = 0; lane < sums.size(); ++lane) {
+    result.parts[lane] = sums[lane].parts(*world.reference);
+  }
+  return result;
+}
+
+Interval error_ratio(const VersusResult& result, std::size_t metric, double p) {
+  std::vector<double> logarithms;
+  logarithms.reserve(result.seeds.size());
+  for (const VersusSeed& seed : result.seeds) {
+    logarithms.push_back(std::log(seed.runs[0].errors[metric] / seed.runs[1].errors[metric]));
+  }
+  const Interval interval = mean_interval(logarithms, p);
+  return {std::exp(interval.mean), std::exp(interval.low), std::exp(interval.high)};
+}
+
+Interval energy_of(const VersusResult& result, std::size_t lane, double p) {
+  std::vector<double> energies;
+  energies.reserve(result.seeds.size());
+  for (const VersusSeed& seed : result.seeds) {
+    energies.push_back(seed.runs[lane].energy);
+  }
+  return mean_interval(energies, p);
+}
+
+std::optional<double> crossing(const VersusResult& result, const VersusPlan& plan,
+                               std::size_t metric) {
+  double first = 0.0;
+  double last = std::numeric_limits<double>::infinity();
+  for (const VersusSeed& seed : result.seeds) {
+    const auto [from, to] = common_efforts(seed, plan.effort);
+    first = std::max(first, from);
+    last = std::min(last, to);
+  }
+  std::vector<std::array<ErrorCurve, 2>> curves;
+  for (const VersusSeed& seed : result.seeds) {
+    curves.push_back(
+        {curve_of(seed.runs[0], plan.effort, metric), curve_of(seed.runs[1], plan.effort, metric)});
+  }
+  // The sum over the seeds of the logarithm of the ratio.
+  const auto lead = [&](double effort) {
+    double sum = 0.0;
+    for (const auto& [a, b] : curves) {
+      sum += std::log(a.error_at(effort) / b.error_at(effort));
+    }
+    return sum;
+  };
+  constexpr int steps = 256;
+  const auto effort_at = [&](int step) {
+    return step == steps ? last : first * std::pow(last / first, double(step) / steps);
+  };
+  std::optional<double> crossed;
+  for (int step = 0; first < last && step < steps; ++step) {
+    const double a = lead(effort_at(step));
+    const double b = lead(effort_at(step + 1));
+    if ((a < 0.0) != (b < 0.0) && std::isfinite(a) && std::isfinite(b)) {
+      const double share = a / (a - b);
+      crossed = effort_at(step) * std::pow(effort_at(step + 1) / effort_at(step), share);
+    }
+  }
+  return crossed;
+}
+
+}  // namespace quartet
