@@ -2,8 +2,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/options/lane_option.h"
@@ -50,20 +53,59 @@ CommonBudget budget_of(const CalibrateOptions& options) {
   return budget;
 }
 
-std::vector<Calibration> calibrate_all(Experiment& experiment,
-                                       const std::vector<LaneSettings>& lane_settings,
-                                       const CommonBudget& budget) {
+/// What was found, a row of the table each.
+struct Calibrations {
+  std::vector<Calibration> asked;
+  std::optional<Calibration> baseline;  ///< uniform, where it was not asked for
+
+  std::vector<Calibration> rows() const {
+    std::vector<Calibration> all = asked;
+    if (baseline) {
+      all.push_back(*baseline);
+    }
+    return all;
+  }
+};
+
+bool is_uniform(const LaneSettings& settings) {
+  return settings.estimator == EstimatorId::uniform;
+}
+
+/// Passes in which uniform has its chance to reach an error: many times what the lanes took.
+std::uint32_t baseline_passes(const std::vector<Calibration>& asked) {
+  constexpr double times = 8.0;
+  double most = 32.0;
+  for (const Calibration& each : asked) {
+    most = std::max(most, each.result.mean_spp);
+  }
+  return std::uint32_t(std::min(std::ceil(times * most), double(CommonBudget().uniform_passes)));
+}
+
+Calibrations calibrate_all(Experiment& experiment, const std::vector<LaneSettings>& lane_settings,
+                           const CommonBudget& budget) {
   const Interrupt interrupt;
   Progress progress("calibrating");
-  std::vector<Calibration> found;
-  for (const LaneSettings& settings : lane_settings) {
-    progress.update(double(found.size()) / double(lane_settings.size()),
-                    estimator(settings.estimator).id);
-    auto calibration = calibrate(experiment, settings, budget, interrupt.token());
+  Calibrations found;
+  const bool with_baseline = std::ranges::none_of(lane_settings, is_uniform);
+  const auto calibrated = [&](const LaneSettings& settings, const CommonBudget& within) {
+    progress.update(
+        double(found.asked.size()) / double(lane_settings.size() + (with_baseline ? 1 : 0)),
+        estimator(settings.estimator).id);
+    auto calibration = calibrate(experiment, settings, within, interrupt.token());
     if (!calibration) {
       throw Interrupted();
     }
-    found.push_back(std::move(*calibration));
+    return std::move(*calibration);
+  };
+  for (const LaneSettings& settings : lane_settings) {
+    found.asked.push_back(calibrated(settings, budget));
+  }
+  if (with_baseline) {
+    CommonBudget within = budget;
+    if (budget.error) {
+      within.uniform_passes = baseline_passes(found.asked);
+    }
+    found.baseline = calibrated(default_settings(EstimatorId::uniform), within);
   }
   return found;
 }
@@ -121,29 +163,39 @@ std::string missing_text(const std::vector<Calibration>& found, const CommonBudg
   return text.empty() ? "" : "  # " + text;
 }
 
-void print_table(const std::vector<Calibration>& found, const CommonBudget& budget,
+/// What the table cannot show, a line a lane.
+void print_remarks(const Calibrations& found, const CommonBudget& budget) {
+  for (const Calibration& each : found.asked) {
+    const std::string_view id = estimator(each.settings.estimator).id;
+    if (!each.met) {
+      fmt::print("{}: {} cannot be met: {}\n", id, budget.text(), each.reason);
+    } else if (!each.note.empty()) {
+      fmt::print("{}: {}\n", id, each.note);
+    }
+  }
+  if (found.baseline && !found.baseline->met) {
+    fmt::print("uniform, for comparison: {}\n", found.baseline->reason);
+  }
+}
+
+void print_table(const Calibrations& found, const CommonBudget& budget,
                  const CalibrateOptions& options) {
   fmt::print("{:<22} {:>9} {:<30} {:>6} {:>9} {:>9}{}\n", "estimator", "factor", "thresholds",
              "passes", "mean spp", "seconds",
              budget.error ? fmt::format(" {:>11}", metric(budget.error->metric).id) : "");
-  for (const Calibration& each : found) {
+  for (const Calibration& each : found.rows()) {
     fmt::print("{:<22} {:>9.4g} {:<30} {:>6} {:>9.2f} {:>9.3f}{}\n",
                estimator(each.settings.estimator).label, each.factor, thresholds_of(each.settings),
                each.result.record.pass, each.result.mean_spp, each.result.record.seconds,
                budget.error ? fmt::format(" {:>11.4g}", each.result.values.front()) : "");
   }
-  for (const Calibration& each : found) {
-    if (!each.met) {
-      fmt::print("{}: {} cannot be met: {}\n", estimator(each.settings.estimator).id, budget.text(),
-                 each.reason);
-    }
-  }
+  print_remarks(found, budget);
   // What has no threshold, or none that does, is nothing to compare like with like.
-  std::vector<Calibration> comparable = found;
+  std::vector<Calibration> comparable = found.asked;
   std::erase_if(comparable, [](const Calibration& each) { return !is_comparable(each); });
   if (!comparable.empty()) {
     fmt::print("quartet figure {} {} --out DIR{}\n", scene_words(options.run),
-               lanes_text(comparable, budget.passes), missing_text(found, budget));
+               lanes_text(comparable, budget.passes), missing_text(found.asked, budget));
   }
 }
 
@@ -166,8 +218,36 @@ void check_use(const CalibrateOptions& options, std::span<const LaneSettings> la
   }
 }
 
-std::string json_of(const std::vector<Calibration>& found, const CommonBudget& budget,
-                    const Run& run, const std::string& command_line) {
+nlohmann::ordered_json json_of(const Calibration& found, bool baseline,
+                               const CommonBudget& budget) {
+  const Estimator& row = estimator(found.settings.estimator);
+  nlohmann::ordered_json entry;
+  entry["estimator"] = row.id;
+  entry["baseline"] = baseline;  // not asked for; there to compare with
+  entry["met"] = found.met;
+  if (!found.met) {
+    entry["reason"] = found.reason;
+  }
+  if (!found.note.empty()) {
+    entry["note"] = found.note;
+  }
+  entry["factor"] = found.factor;
+  entry["thresholds"] = std::vector<float>(found.settings.thresholds.begin(),
+                                           found.settings.thresholds.begin() + row.channels);
+  entry["passes"] = found.result.record.pass;
+  entry["mean_spp"] = found.result.mean_spp;
+  entry["rays"] = found.result.record.rays;
+  entry["seconds"] = found.result.record.seconds;
+  if (budget.error) {
+    entry[std::string(metric(budget.error->metric).id)] = found.result.values.front();
+  }
+  entry["runs"] = found.runs;
+  entry["lane"] = lane_text(found.settings);
+  return entry;
+}
+
+std::string json_of(const Calibrations& found, const CommonBudget& budget, const Run& run,
+                    const std::string& command_line) {
   nlohmann::ordered_json json;
   json["scene"] = run.scene->scene().name;
   json["sampler"] = sampler_row(run.settings.sampler).id;
@@ -175,27 +255,11 @@ std::string json_of(const std::vector<Calibration>& found, const CommonBudget& b
   json["budget"] = budget.text();
   json["passes"] = budget.passes;
   json["estimators"] = nlohmann::ordered_json::array();
-  for (const Calibration& each : found) {
-    const Estimator& row = estimator(each.settings.estimator);
-    nlohmann::ordered_json entry;
-    entry["estimator"] = row.id;
-    entry["met"] = each.met;
-    if (!each.met) {
-      entry["reason"] = each.reason;
-    }
-    entry["factor"] = each.factor;
-    entry["thresholds"] = std::vector<float>(each.settings.thresholds.begin(),
-                                             each.settings.thresholds.begin() + row.channels);
-    entry["passes"] = each.result.record.pass;
-    entry["mean_spp"] = each.result.mean_spp;
-    entry["rays"] = each.result.record.rays;
-    entry["seconds"] = each.result.record.seconds;
-    if (budget.error) {
-      entry[std::string(metric(budget.error->metric).id)] = each.result.values.front();
-    }
-    entry["runs"] = each.runs;
-    entry["lane"] = lane_text(each.settings);
-    json["estimators"].push_back(std::move(entry));
+  for (const Calibration& each : found.asked) {
+    json["estimators"].push_back(json_of(each, false, budget));
+  }
+  if (found.baseline) {
+    json["estimators"].push_back(json_of(*found.baseline, true, budget));
   }
   return json_text(json);
 }
@@ -214,7 +278,7 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   run.lab.reference = truth_for(lane_settings, reference);
   Experiment experiment(sample_source(run.scene, run.settings), run.settings.width,
                         run.settings.height, run.lab, image_of(reference));
-  const std::vector<Calibration> found = calibrate_all(experiment, lane_settings, budget);
+  const Calibrations found = calibrate_all(experiment, lane_settings, budget);
   if (options.json) {
     fmt::print("{}\n", json_of(found, budget, run, program.command_line));
   } else {
@@ -222,11 +286,11 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   }
   report_rejected(rejected_of(experiment.lane(), run.settings.seed), options.run, run.scene,
                   run.settings);
-  for (const Calibration& each : found) {
+  for (const Calibration& each : found.asked) {
     tell_if_capped(each.capped);
   }
   tell_if_partial(experiment.store().partial(), options.run);
-  if (const std::string unmet = ids_of_unmet(found); !unmet.empty()) {
+  if (const std::string unmet = ids_of_unmet(found.asked); !unmet.empty()) {
     throw std::runtime_error(fmt::format("{} cannot be met by {}", budget.text(), unmet));
   }
 }
@@ -252,10 +316,13 @@ void add_calibrate_command(CLI::App& app, const Program& program) {
   add_reference_spp_option(*command, options->reference_spp)->needs(error);
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   command->footer(
-      "All thresholds of an estimator are scaled by one factor, found by bisection over replays. "
-      "Under the\npolicy vote every pixel gets at least one sample a pass, so that --passes "
-      "samples a pixel are the least.\n"
-      "Exit status 1 if a lane cannot meet the goal; the command that is printed leaves it out.\n"
+      "All thresholds of an estimator are scaled by one factor, found by replays: by bisection for "
+      "samples\nand time; by a scan for an error, which is an upper bound and may rise where a "
+      "threshold falls: of the\nthresholds that meet it, the one of the fewest rays. Uniform, in "
+      "whole passes, is always a row. Under the\npolicy vote every pixel gets at least one sample "
+      "a pass, so that --passes samples a pixel are the least.\n"
+      "Exit status 1 if a lane that was asked for cannot meet the goal; all are still printed, and "
+      "the figure\ncommand leaves it out.\n"
       "Examples:\n"
       "  quartet calibrate cornell-checker --spp 24\n"
       "  quartet calibrate veach-plates --error relmse=0.01 --passes 30 --json");

@@ -48,10 +48,11 @@ struct Reference {
   /// Whether it can be said of which scene it is.
   bool ours() const { return !scene_hash.empty(); }
 
-  /// What a metric says of a picture that is right, because the reference is not: the metric of a
-  /// picture that is off from the reference by half the difference of the two halves, which has the
-  /// variance of the reference itself. For mse that is the mean squared difference of the halves
-  /// over 4. Errors below it mean nothing (psnr: above it). NaN if there are no halves.
+  /// What a metric says of a picture that is right, because the reference is not. For mse and rmse
+  /// that is the mean squared difference of the halves over 4, the variance of the reference; for
+  /// the others the metric of possible_truths(), whose mean squared distance is the same. Of rare
+  /// bright light that neither half has seen, it knows nothing: then relmse is too low. Errors
+  /// below it mean nothing (psnr: above it). NaN if there are no halves.
   double noise_floor(MetricId id) const;
 };
 

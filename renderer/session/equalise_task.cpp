@@ -65,8 +65,11 @@ std::string equalise_text(const EqualiseRequest& request, const EqualiseStatus& 
   }
   std::string text = fmt::format("lanes equalised to {}", request.budget.text());
   for (std::size_t i = 0; i < status.calibrations.size(); ++i) {
-    if (!status.calibrations[i].met) {
-      text += fmt::format("; not lane {}: {}", i + 1, status.calibrations[i].reason);
+    const Calibration& each = status.calibrations[i];
+    if (!each.met) {
+      text += fmt::format("; not lane {}: {}", i + 1, each.reason);
+    } else if (!each.note.empty()) {
+      text += fmt::format("; lane {} is {}", i + 1, each.note);
     }
   }
   return text;

@@ -32,7 +32,8 @@ struct EqualiseStatus {
 using EqualiseTask = BackgroundTask<EqualiseRequest, EqualiseStatus>;
 EqualiseTask::Work equalise_work();
 
-/// What to tell about it when it is done: for each lane that could not meet the budget, why.
+/// What to tell about it when it is done: for each lane that could not meet the budget,
+/// or is better than an error that was asked for, why.
 std::string equalise_text(const EqualiseRequest& request, const EqualiseStatus& status);
 
 }  // namespace quartet

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "renderer/base/number_text.h"
+#include "renderer/study/threshold_scan.h"
 
 namespace quartet {
 namespace {
@@ -15,12 +16,7 @@ constexpr double close_enough = 0.01;  // of the budget: met
 // Nearer than this the search ends; measured seconds vary more than a hundredth of a percent.
 constexpr double spot_on = 0.001;
 constexpr double spot_on_seconds = 0.004;
-// Thresholds so high that everything is done, so low that nothing is; products with any sensible
-// default are still ordinary floats.
-constexpr double extreme = 0x1p50;
 constexpr int most_runs = 80;
-/// Rounds after which a uniform run that does not reach an error is given up.
-constexpr std::uint32_t most_uniform_passes = 1u << 14;
 
 void check(const CommonBudget& budget, const Experiment& experiment) {
   const int given =
@@ -35,12 +31,17 @@ void check(const CommonBudget& budget, const Experiment& experiment) {
 }
 
 /// How many times the budget a run took; for an error, how many times better than the target it
-/// is. Above 1: the thresholds are too low.
+/// is.
 double spending(const CommonBudget& budget, const Measurement& run) {
   if (!budget.error) {
     return budget.of(run) / (budget.spp ? *budget.spp : *budget.seconds);
   }
   return times_better(metric(budget.error->metric), run.values.front(), budget.error->value);
+}
+
+/// What of two runs with the same error the better one has less of.
+double cost_of(const PassRecord& record) {
+  return double(record.rays > 0 ? record.rays : record.samples);
 }
 
 /// One search; keeps the nearest run that was seen.
@@ -52,14 +53,19 @@ class Search {
 
   /// Whether it was not stopped.
   bool run() {
-    return estimator(settings_.estimator).channels == 0 ? run_uniform() : bracket() && bisect();
+    if (estimator(settings_.estimator).channels == 0) {
+      return run_uniform();
+    }
+    return budget_.error ? scan() : bracket() && bisect();
   }
 
   Calibration take() {
-    const double off = std::abs(std::log(best_spending_));
-    best_.met = off <= std::log1p(close_enough);
+    const double off = std::log(best_spending_);
+    best_.met = budget_.error ? off >= 0.0 : std::abs(off) <= std::log1p(close_enough);
     if (!best_.met) {
       best_.reason = reason();
+    } else if (budget_.error && off > std::log1p(close_enough)) {
+      best_.note = note();
     }
     return std::move(best_);
   }
@@ -70,7 +76,7 @@ class Search {
     plan.stop.passes = budget_.passes;
     if (budget_.error) {
       plan.metrics = {budget_.error->metric};
-    } else if (factor < extreme) {
+    } else if (factor < extreme_factor) {
       // A run that has spent more after fewer passes need not go on, unless none would spend less.
       constexpr double too_much = 1.02;
       plan.stop.spp = budget_.spp ? std::optional(too_much * *budget_.spp) : std::nullopt;
@@ -84,15 +90,12 @@ class Search {
     return std::abs(std::log(spent)) < std::abs(std::log(best_spending_));
   }
 
-  void consider(const LaneSettings& settings, double factor, const Measurement& result,
-                double spent) {
-    if (nearer(spent)) {
-      best_spending_ = spent;
-      best_.settings = settings;
-      best_.factor = factor;
-      best_.result = result;
-      best_.capped = capped_pixels(experiment_.lane());
-    }
+  void keep(const LaneSettings& settings, double factor, const Measurement& result, double spent) {
+    best_spending_ = spent;
+    best_.settings = settings;
+    best_.factor = factor;
+    best_.result = result;
+    best_.capped = capped_pixels(experiment_.lane());
   }
 
   /// Runs with a factor and says how many times the budget it takes; nothing if stopped.
@@ -106,10 +109,33 @@ class Search {
     const Measurement& result = measured->back();
     const double spent = spending(budget_, result);
     // One that was cut short is on the far side, and no answer.
-    if (result.record.pass == budget_.passes || experiment_.lane().plan().total == 0) {
-      consider(planned.settings, factor, result, spent);
+    const bool whole = result.record.pass == budget_.passes || experiment_.lane().plan().total == 0;
+    if (whole && nearer(spent)) {
+      keep(planned.settings, factor, result, spent);
     }
     return spent;
+  }
+
+  /// For an error.
+  bool scan() {
+    std::optional<ScannedRun> kept;
+    const auto run = [&](double factor) -> std::optional<ScannedRun> {
+      const RunPlan planned = plan(factor);
+      const auto measured = experiment_.run(planned, stop_);
+      if (!measured) {
+        return std::nullopt;
+      }
+      ++best_.runs;
+      const Measurement& result = measured->back();
+      const ScannedRun scanned{factor, spending(budget_, result), cost_of(result.record)};
+      if (!kept || scanned.is_better_than(*kept)) {
+        kept = scanned;
+        keep(planned.settings, factor, result, scanned.quality);
+      }
+      return scanned;
+    };
+    scanned_ = scan_thresholds(run);
+    return scanned_.has_value();
   }
 
   /// Finds factors on both sides of the budget, or ends at the side where there is none.
@@ -122,12 +148,12 @@ class Search {
     low_ = high_ = 1.0;
     const bool up = *start > 1.0;
     for (double factor = 1.0; !bracketed_;) {
-      if (factor >= extreme || factor <= 1.0 / extreme) {
+      if (factor >= extreme_factor || factor <= 1.0 / extreme_factor) {
         return true;  // the end, and still on the same side
       }
       // A few steps, and then all the way: far out nothing but the end is new.
       factor *= up ? step : 1.0 / step;
-      factor = factor > 0x1p12 ? extreme : factor < 0x1p-12 ? 1.0 / extreme : factor;
+      factor = factor > 0x1p12 ? extreme_factor : factor < 0x1p-12 ? 1.0 / extreme_factor : factor;
       const std::optional<double> spent = spending_at(factor);
       if (!spent) {
         return false;
@@ -154,21 +180,25 @@ class Search {
 
   bool run_uniform() {
     RunPlan planned{.settings = settings_, .stop = {}};
-    planned.stop = {.passes = most_uniform_passes,
+    planned.stop = {.passes = budget_.uniform_passes,
                     .spp = budget_.spp,
                     .seconds = budget_.seconds,
                     .error = budget_.error};
     if (budget_.error) {
       planned.metrics = {budget_.error->metric};
+    } else {
+      planned.measure_at = MeasureAt::every_pass;
     }
-    planned.measure_at = MeasureAt::every_pass;
     const auto measured = experiment_.run(planned, stop_);
     if (!measured) {
       return false;
     }
     best_.runs = 1;
     for (const Measurement& each : *measured) {
-      consider(settings_, 1.0, each, spending(budget_, each));
+      const double spent = spending(budget_, each);
+      if (nearer(spent)) {
+        keep(settings_, 1.0, each, spent);
+      }
     }
     return true;
   }
@@ -177,17 +207,35 @@ class Search {
   std::string reason() const {
     const std::string nearest = nearest_text();
     if (estimator(settings_.estimator).channels == 0) {
-      return fmt::format("whole passes come no nearer than {}", nearest);
+      return budget_.error
+                 ? fmt::format("{} whole passes give {}", best_.result.record.pass, nearest)
+                 : fmt::format("whole passes come no nearer than {}", nearest);
+    }
+    const std::string_view id = policy(settings_.policy.kind).id;
+    if (budget_.error) {
+      return fmt::format("{} passes of {} come no nearer than {}, the best of {} thresholds tried",
+                         budget_.passes, id, nearest, scanned_->runs.size());
     }
     if (bracketed_) {
       return fmt::format("no threshold comes nearer than {}", nearest);
     }
-    const bool too_much = best_spending_ > 1.0;
-    const std::string_view id = policy(settings_.policy.kind).id;
-    return budget_.error ? fmt::format("{} passes of {} with {} threshold give {}", budget_.passes,
-                                       id, too_much ? "the highest" : "the lowest", nearest)
-                         : fmt::format("{} passes of {} take at {} {}", budget_.passes, id,
-                                       too_much ? "least" : "most", nearest);
+    return fmt::format("{} passes of {} take at {} {}", budget_.passes, id,
+                       best_spending_ > 1.0 ? "least" : "most", nearest);
+  }
+
+  /// In one line, why the best is better than it need be; empty where whole passes explain it.
+  std::string note() const {
+    const std::string nearest = nearest_text();
+    if (!scanned_) {
+      return best_.result.record.pass > 1
+                 ? ""
+                 : fmt::format("already better than asked: one pass gives {}", nearest);
+    }
+    return scanned_->always
+               ? fmt::format("already better than asked at every threshold; the cheapest gives {}",
+                             nearest)
+               : fmt::format("better than asked: the cheapest threshold that meets it gives {}",
+                             nearest);
   }
 
   std::string nearest_text() const {
@@ -212,6 +260,7 @@ class Search {
   double low_ = 1.0;            // spends too much
   double high_ = 1.0;           // spends too little
   bool bracketed_ = false;
+  std::optional<ThresholdScan> scanned_;  // for an error
 };
 
 }  // namespace

@@ -192,6 +192,60 @@ TEST_F(SweepCommands, CalibrateSaysWhatCannotBeMet) {
   expect_usage_error({"calibrate", "cornell-box", "--spp", "nan"}, "--spp");
 }
 
+TEST_F(SweepCommands, CalibrateShowsUniformWhereItWasNotAskedFor) {
+  const std::vector<std::string> words{"calibrate", "cornell-box", "--size",   "16x16",
+                                       "--spp",     "9.5",         "--passes", "6"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  // Whole passes do not come to 9.5, which is no fault of who did not ask for them.
+  const auto json_run = with({"--estimators", "cycles", "--policy", "batch", "--first-samples", "2",
+                              "--batch-samples", "1", "--json"});
+  const auto json = nlohmann::json::parse(json_run.out);
+  ASSERT_EQ(json.at("estimators").size(), 2u);
+  const auto& lane = json.at("estimators")[0];
+  const auto& uniform = json.at("estimators")[1];
+  EXPECT_FALSE(lane.at("baseline").get<bool>());
+  EXPECT_EQ(uniform.at("estimator"), "uniform");
+  EXPECT_TRUE(uniform.at("baseline").get<bool>());
+  EXPECT_FALSE(uniform.at("met").get<bool>());
+  EXPECT_NE(uniform.at("mean_spp"), 9.5);
+  EXPECT_EQ(json_run.code, lane.at("met").get<bool>() ? 0 : 1) << json_run.error;
+
+  const auto asked = with({"--estimators", "kl,uniform"});
+  EXPECT_EQ(asked.code, 1);
+  EXPECT_EQ(asked.error, "quartet: 9.5 spp cannot be met by uniform\n");
+  EXPECT_EQ(asked.out.find("for comparison"), std::string::npos) << asked.out;
+  const auto not_asked = with({"--estimators", "kl"});
+  EXPECT_EQ(not_asked.code, 0) << not_asked.error;
+  EXPECT_NE(not_asked.out.find("\nuniform, for comparison: whole passes come no nearer than "),
+            std::string::npos)
+      << not_asked.out;
+  EXPECT_EQ(not_asked.out.find("# without"), std::string::npos) << not_asked.out;
+}
+
+TEST_F(SweepCommands, CalibrateTellsBetterThanAskedFromCannot) {
+  const auto with = [&](const std::string& error) {
+    return run({"calibrate", "cornell-box", "--size", "16x16", "--error", error, "--passes", "4",
+                "--estimators", "kl,contrast", "--reference-spp", "64"});
+  };
+  const auto better = with("relmse=50");
+  EXPECT_EQ(better.code, 0) << better.error;
+  EXPECT_NE(better.out.find("\nkl: already better than asked at every threshold; the cheapest"),
+            std::string::npos)
+      << better.out;
+  EXPECT_EQ(better.out.find("cannot"), std::string::npos) << better.out;
+  const auto cannot = with("relmse=1e-7");
+  EXPECT_EQ(cannot.code, 1);
+  EXPECT_EQ(cannot.error, "quartet: relmse 1e-7 cannot be met by kl, contrast\n");
+  EXPECT_NE(cannot.out.find("kl: relmse 1e-7 cannot be met: 4 passes of vote come no nearer than"),
+            std::string::npos)
+      << cannot.out;
+  EXPECT_NE(cannot.out.find("\nuniform, for comparison: "), std::string::npos) << cannot.out;
+}
+
 TEST_F(SweepCommands, CalibrateMeetsAnErrorAgainstAReferenceThatItMakes) {
   const auto result =
       run({"calibrate", "cornell-box", "--size", "24x24", "--error", "relmse=0.02", "--passes", "8",

@@ -91,6 +91,20 @@ TEST(EqualiseTaskThreads, AnErrorNeedsAReference) {
   EXPECT_EQ(status.calibrations.size(), 4u);
 }
 
+TEST(EqualiseTaskThreads, ALaneThatIsBetterThanAskedIsSaidSo) {
+  EqualiseTask task(equalise_work());
+  CommonBudget budget;
+  budget.passes = passes;
+  budget.error = ErrorTarget{MetricId::relmse, 1e6};
+  EqualiseRequest request = request_for(budget);
+  request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
+  const EqualiseStatus status = equalised(task, request);
+  ASSERT_EQ(status.calibrations.size(), 4u);
+  const std::string text = equalise_text(request, status);
+  EXPECT_EQ(text.find("not lane"), std::string::npos) << text;
+  EXPECT_NE(text.find("; lane 2 is already better than asked"), std::string::npos) << text;
+}
+
 TEST(EqualiseTaskThreads, IsEndedByTheNextRequest) {
   EqualiseTask task(equalise_work());
   for (int i = 0; i < 10; ++i) {

@@ -83,7 +83,10 @@ TEST(Calibrate, MeetsAnError) {
                                {.passes = 12, .error = ErrorTarget{MetricId::relmse, middle}});
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_LE(found->result.values[0], middle) << "an upper bound";
   EXPECT_NEAR(found->result.values[0], middle, 0.011 * middle);
+  EXPECT_EQ(found->note, "");
+  EXPECT_LT(found->runs, 60);
 }
 
 TEST(Calibrate, AnErrorInDecibelsIsComparedAsWhatItStandsFor) {
@@ -115,7 +118,8 @@ TEST(Calibrate, SaysWhyABudgetCannotBeMet) {
       calibrate(experiment, settings, {.passes = 3, .error = ErrorTarget{MetricId::relmse, 1e-9}});
   ASSERT_TRUE(found);
   EXPECT_FALSE(found->met);
-  EXPECT_NE(found->reason.find("lowest threshold give relmse"), std::string::npos) << found->reason;
+  EXPECT_EQ(found->reason.substr(0, 46), "3 passes of vote come no nearer than relmse 0.")
+      << found->reason;
 }
 
 TEST(Calibrate, UniformTakesAsManyPassesAsTheBudgetHas) {
@@ -128,6 +132,130 @@ TEST(Calibrate, UniformTakesAsManyPassesAsTheBudgetHas) {
   found = calibrate(experiment, uniform, {.passes = 15, .spp = 2.5});
   EXPECT_FALSE(found->met);
   EXPECT_NE(found->reason.find("whole passes"), std::string::npos);
+}
+
+TEST(Calibrate, UniformTakesTheFirstPassThatMeetsAnError) {
+  Experiment experiment = make_experiment();
+  const LaneSettings uniform = default_settings(EstimatorId::uniform);
+  const auto errors = *experiment.run({.settings = uniform,
+                                       .stop = {.passes = 8},
+                                       .metrics = {MetricId::relmse},
+                                       .measure_at = MeasureAt::every_pass});
+  const double between = std::sqrt(errors[4].values[0] * errors[5].values[0]);
+  CommonBudget budget{.passes = 15, .error = ErrorTarget{MetricId::relmse, between}};
+  auto found = calibrate(experiment, uniform, budget);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_EQ(found->note, "");
+  EXPECT_EQ(found->result.record.pass, 6u);
+  EXPECT_EQ(found->result.values[0], errors[5].values[0]);
+
+  budget.uniform_passes = 5;
+  found = calibrate(experiment, uniform, budget);
+  EXPECT_FALSE(found->met);
+  EXPECT_EQ(found->reason.substr(0, 28), "5 whole passes give relmse 0");
+
+  budget.error->value = 2.0 * errors[0].values[0];
+  found = calibrate(experiment, uniform, budget);
+  EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_EQ(found->result.record.pass, 1u);
+  EXPECT_EQ(found->note.substr(0, 24), "already better than aske");
+}
+
+/// As noisy_source(), but the samples of each pixel from the 20th to the 23rd are light that the
+/// truth does not have: who stops before never sees it, and who goes on needs many samples more
+/// until it hardly counts.
+SampleSource late_light_source(int width) {
+  return [base = test::noisy_source(width)](int x, int y, std::uint32_t first,
+                                            std::span<glm::vec3> radiance) {
+    base(x, y, first, radiance);
+    for (std::uint32_t i = 0; i < radiance.size(); ++i) {
+      radiance[i] *= first + i >= 20 && first + i < 24 ? 8.0f : 1.0f;
+    }
+  };
+}
+
+/// An error that first rises and then falls with the samples.
+class LateLight : public testing::Test {
+ protected:
+  LateLight() {
+    settings_.max_spp = 400;
+    settings_.policy = {};
+    settings_.policy.kind = PolicyId::batch;
+  }
+  double error_at(double factor) { return measured_at(factor).values[0]; }
+  Measurement measured_at(double factor) {
+    return experiment_
+        .run({.settings = scaled_thresholds(settings_, factor),
+              .stop = {.passes = passes_},
+              .metrics = {MetricId::relmse}})
+        ->back();
+  }
+  std::optional<Calibration> found_for(double error) {
+    return calibrate(experiment_, settings_,
+                     {.passes = passes_, .error = ErrorTarget{MetricId::relmse, error}});
+  }
+
+  static constexpr int width_ = 48;
+  static constexpr int height_ = 24;
+  static constexpr std::uint32_t passes_ = 60;
+  LaneSettings settings_ = default_settings(EstimatorId::confidence);
+  Experiment experiment_ =
+      Experiment(late_light_source(width_), width_, height_, {},
+                 std::make_shared<const RadianceImage>(test::noisy_truth(width_, height_)));
+};
+
+TEST_F(LateLight, OfTheThresholdsThatMeetAnErrorTheCheapestIsTaken) {
+  const Measurement first = measured_at(1e6);
+  const Measurement middle = measured_at(0x1p2);
+  const Measurement all = measured_at(1e-6);
+  // Not monotone: neither few samples nor many are as wrong as those in between.
+  ASSERT_LT(first.values[0], 0.8 * middle.values[0]);
+  ASSERT_LT(all.values[0], 0.5 * first.values[0]);
+  ASSERT_LT(10.0 * middle.mean_spp, all.mean_spp * 2.0);
+
+  // Only in reach with many samples: the lower crossing.
+  const double hard = std::sqrt(all.values[0] * first.values[0]);
+  auto found = found_for(hard);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_LE(found->result.values[0], hard);
+  EXPECT_GE(found->result.values[0], 0.98 * hard);
+  EXPECT_GT(found->result.mean_spp, 5.0 * first.mean_spp);
+  EXPECT_LT(found->result.mean_spp, 0.9 * all.mean_spp);
+
+  // Also in reach before the light comes: bisection from the given thresholds would take the first
+  // crossing that it meets, with many times the samples.
+  const double easy = std::sqrt(first.values[0] * middle.values[0]);
+  found = found_for(easy);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met) << found->reason;
+  EXPECT_LE(found->result.values[0], easy);
+  EXPECT_EQ(found->result.mean_spp, first.mean_spp);
+  EXPECT_EQ(found->note.substr(0, 55), "better than asked: the cheapest threshold that meets it");
+  EXPECT_LT(found->runs, 60);
+}
+
+TEST_F(LateLight, BetterThanAskedIsNotThatItCannotBeMet) {
+  const auto found = found_for(1.0);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->met);
+  EXPECT_EQ(found->reason, "");
+  EXPECT_EQ(found->note.substr(0, 73),
+            "already better than asked at every threshold; the cheapest gives relmse 0");
+  EXPECT_EQ(found->result.record.samples, measured_at(1e6).record.samples);
+  EXPECT_LT(found->factor, 1e6) << "the nearest of those that do nothing";
+}
+
+TEST_F(LateLight, WhatNoThresholdReachesIsSaidWithTheNearest) {
+  const auto found = found_for(1e-3);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->met);
+  EXPECT_EQ(found->note, "");
+  EXPECT_EQ(found->reason.substr(0, 50), "60 passes of batch come no nearer than relmse 0.00");
+  // The least error is that of neither end.
+  EXPECT_LT(found->result.values[0], 0.95 * error_at(1e-6));
+  EXPECT_LT(found->result.values[0], 0.95 * error_at(1e6));
 }
 
 TEST(CommonBudget, IsWhatItSaysOfARun) {
