@@ -16,6 +16,7 @@
 #include "app/records/stop_report.h"
 #include "renderer/adaptive/effort.h"
 #include "renderer/files/staged_files.h"
+#include "renderer/measure/energy.h"
 #include "renderer/view/lane_exr.h"
 #include "ui/paper/lab_figure.h"
 
@@ -32,18 +33,21 @@ struct FigureOptions {
 };
 
 void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
-  const Metric& row = metric(MetricId::relmse);
+  const Metric& row = metric(default_metric);
   fmt::print("{:<22} {:>7} {:>9} {:>9} {:>9} {:>9}{}\n", "estimator", "passes", "mean spp",
              "max spp", "seconds", "not done",
-             snapshot.reference ? fmt::format(" {:>9}", row.label) : "");
+             snapshot.reference ? fmt::format(" {:>9} {:>17}", "energy", row.label) : "");
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     const PassRecord& last = lane.history.back();
     const double pixels = double(snapshot.pixels());
-    const std::string error =
-        snapshot.reference ? fmt::format(" {:>9.3g}", row.compute(radiance_image(snapshot, i),
-                                                                  *snapshot.reference))
-                           : "";
+    std::string error;
+    if (snapshot.reference) {
+      const RadianceImage image = radiance_image(snapshot, i);
+      error =
+          fmt::format(" {:>+7.2f} % {:>17.3g}", 100.0 * energy_error(image, *snapshot.reference),
+                      row.compute(image, *snapshot.reference));
+    }
     // Labels are UTF-8: fmt pads by what is seen.
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",
                estimator(lane.settings.estimator).label, last.pass,

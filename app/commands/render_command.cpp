@@ -18,6 +18,7 @@
 #include "renderer/adaptive/effort.h"
 #include "renderer/files/png.h"
 #include "renderer/files/staged_files.h"
+#include "renderer/measure/energy.h"
 #include "renderer/view/lane_exr.h"
 #include "renderer/view/views.h"
 
@@ -82,9 +83,10 @@ void print_summary(const std::filesystem::path& path, const Snapshot& snapshot,
   fmt::print("{}: {} passes, mean {:.2f} spp, max {} spp, {:.2f} s", path.string(), last.pass,
              mean_spp(last, snapshot.pixels()), last.max_spp, last.seconds);
   if (reference != nullptr) {
-    const Metric& row = metric(MetricId::relmse);
-    fmt::print(", {} {:.4g}", row.label,
-               row.compute(radiance_image(snapshot, 0), reference->image));
+    const Metric& row = metric(default_metric);
+    const RadianceImage image = radiance_image(snapshot, 0);
+    fmt::print(", {} {:.4g}, energy {:+.2f} %", row.label, row.compute(image, reference->image),
+               100.0 * energy_error(image, reference->image));
   }
   fmt::print("\n");
 }

@@ -41,7 +41,7 @@ struct ScreenshotOptions {
   std::optional<float> scale;
   std::string layout = "columns";
   std::vector<std::string> views{"image", "heatmap"};
-  std::string metric;  ///< empty: relmse
+  std::string metric;  ///< empty: default_metric
   std::string output;
 };
 
@@ -288,8 +288,8 @@ void add_screenshot_command(CLI::App& app, const Program&) {
       ->expected(1, 2)
       ->capture_default_str();
   command->add_option("--metric", options->metric,
-                      fmt::format("Of the dock's chart, with --reference; relmse if not given: {}",
-                                  row_ids(metrics())));
+                      fmt::format("Of the dock's chart, with --reference; {} if not given: {}",
+                                  metric(default_metric).id, row_ids(metrics())));
   command->add_option("-o,--output", options->output, "A .png")->required();
   command->footer(
       "All lanes are shown at the pass where the last of them meets its end.\n"

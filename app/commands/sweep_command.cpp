@@ -33,7 +33,7 @@ struct SweepOptions {
   std::vector<std::string> estimators;  // none: all
   SweepPlan plan;
   std::string range = "0.1:10";
-  std::string metric = "relmse";
+  std::string metric{quartet::metric(default_metric).id};
   StopOptions stop;
   ReferenceChoice reference;
   std::uint32_t reference_spp = 1024;
@@ -67,10 +67,15 @@ std::vector<LaneSettings> sweep_lanes(const SweepOptions& options, const StopCon
   }
   std::vector<LaneSettings> lane_settings =
       settings_of_lanes(lanes, options.run.lane_settings, stop);
-  // The baseline is in every sweep, with passes for its thresholds.
-  std::erase_if(lane_settings, [](const LaneSettings& settings) {
-    return estimator(settings.estimator).channels == 0;
-  });
+  // The baselines are in every sweep: uniform sampling with passes for its thresholds, and what
+  // loses light by design, so that a gain of that kind is known when it is seen.
+  const auto is_one = [](EstimatorId id) {
+    return [id](const LaneSettings& settings) { return settings.estimator == id; };
+  };
+  std::erase_if(lane_settings, is_one(EstimatorId::uniform));
+  if (std::ranges::none_of(lane_settings, is_one(EstimatorId::uniform_clamp))) {
+    lane_settings.push_back(default_settings(EstimatorId::uniform_clamp));
+  }
   return lane_settings;
 }
 
@@ -83,7 +88,8 @@ SweepPlan sweep_plan(const SweepOptions& options) {
   plan.stop.passes = plan.stop.passes.value_or(15);
   plan.stop.spp = plan.stop.spp.value_or(64.0);
   plan.metrics = {find_metric(options.metric).key};
-  for (const MetricId id : {MetricId::relmse, MetricId::mse, MetricId::flip}) {
+  for (const MetricId id :
+       {MetricId::relmse_regions, MetricId::relmse, MetricId::mse, MetricId::flip}) {
     if (id != plan.metrics.front()) {
       plan.metrics.push_back(id);
     }
@@ -126,7 +132,8 @@ void print_points(const SweepSummary& summary) {
           point.against_uniform[counted], point.against_uniform[std::size_t(Effort::seconds)],
           note);
     };
-    print(estimator(id).label, *normal, "at its default threshold");
+    print(estimator(id).label, *normal,
+          estimator(id).channels > 0 ? "at its default threshold" : "which loses light by design");
     if (best->against_uniform[counted] < normal->against_uniform[counted]) {
       print("", *best, "at the best of the sweep");
     }

@@ -28,15 +28,16 @@ struct VersusOptions {
   std::optional<double> seconds;
   std::uint32_t seeds = 8;
   double confidence = 0.95;
-  std::string metric = "relmse";
+  std::string metric{quartet::metric(default_metric).id};
   ReferenceChoice reference;
   std::uint32_t reference_spp = 1024;
   std::string csv;
   bool json = false;
 };
 
-constexpr std::array compared_metrics{MetricId::relmse, MetricId::relmse_trimmed, MetricId::mse,
-                                      MetricId::smape, MetricId::flip};
+constexpr std::array compared_metrics{MetricId::relmse_regions, MetricId::relmse,
+                                      MetricId::relmse_trimmed, MetricId::mse,
+                                      MetricId::smape,          MetricId::flip};
 
 VersusPlan versus_plan(const VersusOptions& options) {
   VersusPlan plan;

@@ -21,6 +21,8 @@ FilmStatistics needed_statistics(const LaneSettings& settings, const LaneInputs&
 FilmStatistics shown_statistics(const LaneSettings& settings, const LaneInputs& inputs) {
   FilmStatistics statistics = inputs.statistics;
   statistics.replicated = inputs.sampler == SamplerId::replicated;
+  // What is cut is cut in what is shown, whoever decides.
+  statistics.clamp = estimator(settings.estimator).needs.clamp;
   return settings.mode == SampleMode::unbiased ? statistics
                                                : statistics | needed_statistics(settings, inputs);
 }

@@ -24,6 +24,8 @@ const Metric* row_of_metric(MetricId key) {
       return &relmse_metric;
     case MetricId::relmse_trimmed:
       return &relmse_trimmed_metric;
+    case MetricId::relmse_regions:
+      return &relmse_regions_metric;
     case MetricId::mape:
       return &mape_metric;
     case MetricId::smape:

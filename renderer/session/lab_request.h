@@ -40,7 +40,7 @@ struct LaneRequest {
   /// then only those of estimators that need it.
   std::shared_ptr<const RadianceImage> reference;
   /// Of these errors. A change replays all lanes where there are any.
-  MetricId metric = MetricId::relmse;
+  MetricId metric = default_metric;
   bool operator==(const LaneRequest&) const = default;
 };
 

@@ -67,7 +67,7 @@ class LabWorker {
   std::unique_ptr<Lab> lab_;  // of the current request
   // What true errors in the records of its lanes are of.
   std::shared_ptr<const RadianceImage> measured_against_;
-  MetricId measured_in_ = MetricId::relmse;
+  MetricId measured_in_ = default_metric;
   std::stop_source stop_;  // of the pass under way
   bool owes_first_picture_ = false;
 

@@ -134,6 +134,11 @@ std::vector<float> true_squared_error(const Experiment& experiment) {
   return {map.pixels().begin(), map.pixels().end()};
 }
 
+/// Of a lane without thresholds there is nothing to scale.
+std::vector<double> lane_factors(const SweepPlan& plan, const LaneSettings& settings) {
+  return estimator(settings.estimator).channels > 0 ? sweep_factors(plan) : std::vector{1.0};
+}
+
 /// One seed's runs; false if stopped.
 bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
               std::stop_token stop, SweepProgress& progress, SweepResult& result) {
@@ -142,7 +147,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
   std::vector<Measurement> ends;
   const std::vector<float> oracle = oracle_weights(experiment.first_samples(oracle_spp));
   for (const LaneSettings& settings : plan.lane_settings) {
-    for (const double factor : sweep_factors(plan)) {
+    for (const double factor : lane_factors(plan, settings)) {
       progress.begin_run(index++, fmt::format("seed {}, {} x {:.3g}", seed,
                                               estimator(settings.estimator).id, factor));
       SweepRun run{.settings = scaled_thresholds(settings, factor), .factor = factor, .seed = seed};
@@ -266,7 +271,10 @@ std::optional<SweepResult> run_sweep(
     const std::function<void(double, std::string_view)>& progress) {
   SweepResult result;
   result.first_seed = world.first_seed;
-  const std::size_t runs = 1 + plan.lane_settings.size() * sweep_factors(plan).size();
+  std::size_t runs = 1;
+  for (const LaneSettings& settings : plan.lane_settings) {
+    runs += lane_factors(plan, settings).size();
+  }
   SweepProgress told(std::size_t(plan.seeds), runs, progress);
   for (std::uint32_t k = 0; k < plan.seeds; ++k) {
     told.begin_seed(k);

@@ -40,7 +40,7 @@ Experiment make_experiment(const SampleWorld& world, std::uint64_t seed);
 SampleWorld sample_world(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings,
                          const LabOptions& lab, std::shared_ptr<const RadianceImage> reference);
 
-/// Every lane at a geometric range of thresholds, with several seeds.
+/// Every lane at a geometric range of thresholds, if it has any, with several seeds.
 struct SweepPlan {
   /// With their default thresholds; of a sweep's estimators.
   std::vector<LaneSettings> lane_settings;
@@ -51,7 +51,7 @@ struct SweepPlan {
   /// The end of each run. The uniform baseline goes on until it has taken more samples and rays
   /// than the dearest run, so that all are compared with what it really gives for the same.
   StopConditions stop;
-  std::vector<MetricId> metrics{MetricId::relmse};
+  std::vector<MetricId> metrics{default_metric};
 };
 
 /// One run of a sweep.

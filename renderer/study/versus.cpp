@@ -196,7 +196,8 @@ std::optional<double> crossing(const VersusResult& result, const VersusPlan& pla
   for (int step = 0; first < last && step < steps; ++step) {
     const double a = lead(effort_at(step));
     const double b = lead(effort_at(step + 1));
-    if ((a < 0.0) != (b < 0.0) && std::isfinite(a) && std::isfinite(b)) {
+    // Not where they begin alike.
+    if (a * b < 0.0) {
       const double share = a / (a - b);
       crossed = effort_at(step) * std::pow(effort_at(step + 1) / effort_at(step), share);
     }

@@ -14,7 +14,7 @@ struct SweepSummary {
   std::vector<SweepPoint> points;   ///< of all lanes
   std::vector<SweepPoint> uniform;  ///< the baseline, by rising passes
   std::vector<SweepPoint> front;    ///< of points and uniform
-  MetricId metric = MetricId::relmse;
+  MetricId metric = default_metric;
   std::uint32_t seeds = 1;
   double noise_floor = 0.0;  ///< of the reference; NaN: not known
 };

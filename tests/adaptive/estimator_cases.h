@@ -63,6 +63,7 @@ class BruteForce {
     const std::vector<glm::vec3>& samples = picture_.samples[pixel];
     switch (id) {
       case EstimatorId::uniform:
+      case EstimatorId::uniform_clamp:
         return 0.0;
       case EstimatorId::contrast:
         return contrast<double>(neighbours(pixel)[std::size_t(channel)]);

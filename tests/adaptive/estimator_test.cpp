@@ -187,6 +187,7 @@ TEST(Estimators, TheOrderOfWhatIsLookedAtDoesNotMatter) {
 double power_of_scale(EstimatorId id) {
   switch (id) {
     case EstimatorId::uniform:
+    case EstimatorId::uniform_clamp:
     case EstimatorId::contrast:
     case EstimatorId::confidence:
       return 0.0;

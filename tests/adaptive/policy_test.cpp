@@ -257,7 +257,7 @@ TEST(Tables, IdsAreUniqueAndFound) {
     EXPECT_STREQ(error.what(),
                  "unknown estimator 'kll'; there are: contrast, kl, chi2, hellinger, confidence, "
                  "variance, half-buffer, cycles, rigau-kl, rigau-chi2, rigau-hellinger, oracle, "
-                 "uniform");
+                 "uniform, uniform-clamp");
   }
 }
 

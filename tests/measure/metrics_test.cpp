@@ -110,6 +110,36 @@ TEST(Metrics, TrimmedRelmseDropsTheLargestThousandth) {
   EXPECT_NEAR(value(MetricId::relmse, test, reference), (2996 + 1e4 + 3e6) / 3000, 1e-1);
 }
 
+TEST(Metrics, RelmseOfRegionsCountsBiasAsOftenAsARegionHasPixels) {
+  // Regions of 5 × 4 pixels.
+  const RadianceImage truth(40, 32, glm::vec3(1.0f));
+  const double off = 0.1 * 0.1 / 1.01;
+  EXPECT_NEAR(value(MetricId::relmse_regions, RadianceImage(40, 32, glm::vec3(0.9f)), truth),
+              20.0 * off, 1e-6);
+  EXPECT_NEAR(value(MetricId::relmse, RadianceImage(40, 32, glm::vec3(0.9f)), truth), off, 1e-6);
+  // One pixel that is 20 too bright makes its region 1 brighter: 20 · 1² in one of 64.
+  RadianceImage firefly = truth;
+  firefly.at(7, 9) += glm::vec3(20.0f);
+  EXPECT_NEAR(value(MetricId::relmse_regions, firefly, truth), 20.0 / 1.01 / 64.0, 1e-6);
+  const ScalarImage map = metric(MetricId::relmse_regions).map(firefly, truth);
+  EXPECT_NEAR(map.at(5, 8), 20.0 / 1.01, 1e-5) << "the corner of the region";
+  EXPECT_EQ(map.at(4, 8), 0.0f) << "the region beside it";
+}
+
+TEST(Metrics, RelmseOfRegionsIsThatOfPixelsForNoise) {
+  // Noise of deviation 0.5 that no pixel has from another. The mean over 64 regions of 3 channels
+  // is known to √(2/192), 10 %: this fails by chance in under one of 10^4 seeds.
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise(0.0f, 0.5f);
+  const RadianceImage truth(160, 96, glm::vec3(3.0f));
+  RadianceImage test = truth;
+  for (glm::vec3& c : test.pixels()) {
+    c += glm::vec3(noise(random), noise(random), noise(random));
+  }
+  EXPECT_NEAR(value(MetricId::relmse_regions, test, truth) / value(MetricId::relmse, test, truth),
+              1.0, 0.4);
+}
+
 TEST(Metrics, PsnrLooksAtWhatADisplayShows) {
   const RadianceImage dim(8, 8, glm::vec3(1.0f));
   const RadianceImage bright(8, 8, {1.0f, 7.0f, 1e30f});

@@ -36,6 +36,8 @@ const Estimator* row_of_estimator(EstimatorId key) {
       return &oracle_estimator;
     case EstimatorId::uniform:
       return &uniform_estimator;
+    case EstimatorId::uniform_clamp:
+      return &uniform_clamp_estimator;
   }
   return nullptr;
 }

@@ -22,6 +22,7 @@ enum class EstimatorId {
   rigau_hellinger,
   oracle,
   uniform,
+  uniform_clamp,
 };
 
 enum class PolicyId;  // policy.h

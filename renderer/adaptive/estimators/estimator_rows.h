@@ -19,6 +19,7 @@ extern const Estimator rigau_chi2_estimator;
 extern const Estimator rigau_hellinger_estimator;
 extern const Estimator oracle_estimator;
 extern const Estimator uniform_estimator;
+extern const Estimator uniform_clamp_estimator;
 
 inline constexpr std::string_view rigau_2003 =
     "Rigau, Feixas and Sbert 2003, Refinement Criteria Based on f-Divergences";

@@ -49,6 +49,7 @@ FilmStatistics operator|(const FilmStatistics& a, const FilmStatistics& b) {
   both.hellinger = a.hellinger || b.hellinger;
   both.half = a.half != SampleHalf::none ? a.half : b.half;
   both.replicated = a.replicated || b.replicated;
+  both.clamp = std::min(a.clamp, b.clamp);
   return both;
 }
 
@@ -73,18 +74,20 @@ void Film::allocate_statistics() {
   allocate(luminances_, size(), keep.chi2 || keep.kl || keep.hellinger);
   allocate(halves_, size(), keep.half != SampleHalf::none);
   allocate(replicates_, size(), keep.replicated && (keep.variance || keep.chi2));
+  allocate(seen_above_, size(), keep.clamps());
 }
 
 void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
   keep_sums();
   RunningMean running{sums_[pixel], counts_[pixel]};
   std::uint32_t index = counts_[pixel] + rejected_[pixel];
-  for (const glm::vec3& sample : samples) {
+  for (const glm::vec3& taken : samples) {
     const std::uint32_t i = index++;
-    if (!acceptable(sample)) {
+    if (!acceptable(taken)) {
       ++rejected_[pixel];
       continue;
     }
+    const glm::vec3 sample = seen_above_.empty() ? taken : clamped(pixel, taken, running);
     if (statistics_.variance && running.count > 0) {
       // Welford, "Note on a Method for Calculating Corrected Sums of Squares and Products",
       // Technometrics 4(3), 1962, in the form that needs only the sum so far.
@@ -105,6 +108,28 @@ void Film::add(std::size_t pixel, std::span<const glm::vec3> samples) {
   }
   sums_[pixel] = running.sum;
   put(pixel, running.count, running.mean());
+}
+
+/// A sample as it enters. Where the first one was above the clamp, which may be a light, and the
+/// second is not, the first is cut too, afterwards.
+glm::vec3 Film::clamped(std::size_t pixel, const glm::vec3& sample, RunningMean& running) {
+  SeenAbove& seen = seen_above_[pixel];
+  const bool is_above = std::max({sample.x, sample.y, sample.z}) > statistics_.clamp;
+  if (running.count == 0) {
+    seen = is_above ? SeenAbove::first : SeenAbove::nothing;
+    return sample;
+  }
+  if (running.count == 1 && seen == SeenAbove::first) {
+    seen = is_above ? SeenAbove::light : SeenAbove::nothing;
+    if (!is_above) {
+      running.sum = min(running.sum, glm::dvec3(double(statistics_.clamp)));
+      if (!replicates_.empty()) {
+        replicates_[pixel] = Replicates();
+        replicates_[pixel].add(rejected_[pixel], running.sum);
+      }
+    }
+  }
+  return seen == SeenAbove::light ? sample : min(sample, glm::vec3(statistics_.clamp));
 }
 
 /// One more luminance, after `count` of them.
@@ -212,7 +237,7 @@ std::size_t Film::bytes() const {
   }
   return size() * per_pixel + (sums_.size() + deviations_.size()) * sizeof(glm::dvec3) +
          doubles * sizeof(double) + halves_.size() * sizeof(RunningMean) +
-         replicates_.size() * sizeof(Replicates);
+         replicates_.size() * sizeof(Replicates) + seen_above_.size();
 }
 
 }  // namespace quartet

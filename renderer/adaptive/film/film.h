@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,15 @@ struct FilmStatistics {
   /// `variance` or `chi2`, it is taken from the means of the sequences, which are kept for it.
   bool replicated = false;
 
-  bool any() const { return variance || chi2 || kl || hellinger || half != SampleHalf::none; }
+  /// Each channel of a sample is cut at this before it enters anything, except in pixels that see a
+  /// light, whose first two samples are both above it. Infinite: none is.
+  float clamp = std::numeric_limits<float>::infinity();
+
+  /// Whether means of samples alone are not enough.
+  bool any() const {
+    return variance || chi2 || kl || hellinger || half != SampleHalf::none || clamps();
+  }
+  bool clamps() const { return clamp < std::numeric_limits<float>::infinity(); }
   bool operator==(const FilmStatistics&) const = default;
 };
 
@@ -55,6 +64,9 @@ struct LuminanceDeviations {
   double squares = 0.0;
   std::uint32_t freedom = 0;  ///< 0 if the variance is not known
 };
+
+/// What the first samples of a pixel say of a light behind it, for FilmStatistics::clamp.
+enum class SeenAbove : std::uint8_t { nothing, first, light };
 
 /// The statistics of the samples that each pixel has taken. What the estimators read is planar,
 /// because they run over it in vectors.
@@ -138,6 +150,7 @@ class Film {
 
  private:
   void add_luminance(std::size_t pixel, double count, double luminance);
+  glm::vec3 clamped(std::size_t pixel, const glm::vec3& sample, RunningMean& running);
   void allocate_statistics();
 
   int width_;
@@ -153,6 +166,7 @@ class Film {
   std::array<std::vector<double>, 3> spreads_;  // by Divergence
   std::vector<RunningMean> halves_;
   std::vector<Replicates> replicates_;
+  std::vector<SeenAbove> seen_above_;  // of the clamp, where there is one
 };
 
 }  // namespace quartet

@@ -9,6 +9,7 @@ extern const Metric mse_metric;
 extern const Metric rmse_metric;
 extern const Metric relmse_metric;
 extern const Metric relmse_trimmed_metric;
+extern const Metric relmse_regions_metric;
 extern const Metric mape_metric;
 extern const Metric smape_metric;
 extern const Metric psnr_metric;

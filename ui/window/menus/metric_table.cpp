@@ -68,6 +68,7 @@ std::vector<const Metric*> metrics_by_interest(MetricId chosen) {
       order.push_back(&row);
     }
   };
+  add(metric(default_metric));
   add(metric(MetricId::relmse));
   add(metric(MetricId::flip));
   std::ranges::for_each(metrics(), add);
