@@ -26,7 +26,7 @@ struct Snapshot {
   std::vector<LaneSnapshot> lanes;
   /// What true errors are measured against; null if there is nothing.
   std::shared_ptr<const RadianceImage> reference;
-  MetricId metric = default_metric;    ///< of true errors
+  MetricId metric = default_metric;  ///< of true errors
   /// Uniform sampling, as far as the dearest of the lanes has come, in samples, rays and seconds;
   /// with a reference only.
   std::optional<LaneSnapshot> baseline;

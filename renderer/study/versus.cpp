@@ -11,17 +11,17 @@
 namespace quartet {
 namespace {
 
-StopConditions stop_at(const VersusPlan& plan) {
+StopConditions stop_at(Effort effort, double goal) {
   StopConditions stop;
-  switch (plan.effort) {
+  switch (effort) {
     case Effort::seconds:
-      stop.seconds = plan.goal;
+      stop.seconds = goal;
       break;
     case Effort::rays:
-      stop.rays = plan.goal;
+      stop.rays = goal;
       break;
     case Effort::mean_spp:
-      stop.spp = plan.goal;
+      stop.spp = goal;
       break;
   }
   return stop;
@@ -59,9 +59,9 @@ std::pair<double, double> common_efforts(const VersusSeed& seed, Effort effort) 
 }
 
 /// Fills in what is known once both lanes have run.
-void compare(const VersusPlan& plan, VersusSeed& seed) {
+void compare(const VersusPlan& plan, double goal, VersusSeed& seed) {
   const auto [first, last] = common_efforts(seed, plan.effort);
-  seed.effort = std::max(first, std::min(last, plan.goal));
+  seed.effort = std::max(first, std::min(last, goal));
   for (VersusRun& run : seed.runs) {
     for (std::size_t m = 0; m < plan.metrics.size(); ++m) {
       // One that was done before the other's first pass has its last error for ever.
@@ -118,9 +118,18 @@ std::optional<VersusResult> run_versus(
     const std::uint64_t seed = world.first_seed + k;
     Experiment experiment = make_experiment(world, seed);
     VersusSeed measured;
+    // A first pass may take more than the goal; the other lane then goes as far.
+    double goal = plan.goal;
+    for (const LaneSettings& settings : plan.lanes) {
+      const auto first = experiment.run({.settings = settings, .stop = {.passes = 1}}, stop);
+      if (!first) {
+        return std::nullopt;
+      }
+      goal = std::max(goal, effort_of(plan.effort, first->back()));
+    }
     for (std::size_t lane = 0; lane < plan.lanes.size(); ++lane) {
       const RunPlan run{.settings = plan.lanes[lane],
-                        .stop = stop_at(plan),
+                        .stop = stop_at(plan.effort, goal),
                         .metrics = plan.metrics,
                         .measure_at = MeasureAt::every_pass};
       auto passes = experiment.run(run, stop, [&](double done) {
@@ -138,7 +147,7 @@ std::optional<VersusResult> run_versus(
       keep_most(result.capped, capped_pixels(experiment.lane()));
     }
     result.partial |= experiment.store().partial();
-    compare(plan, measured);
+    compare(plan, goal, measured);
     result.seeds.push_back(std::move(measured));
   }
   for (std::size_t lane = 0; lane < sums.size(); ++lane) {

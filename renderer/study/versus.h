@@ -36,7 +36,8 @@ struct VersusRun {
 
 struct VersusSeed {
   std::array<VersusRun, 2> runs;
-  /// The goal, or less where a lane was done before it: with more it would not get better.
+  /// The goal; less where a lane was done before it, since with more it would not get better; more
+  /// where a lane's first pass takes more.
   double effort = 0.0;
 };
 

@@ -93,7 +93,7 @@ void add_lanes(const SweepSummary& summary, Cost cost, Chart& chart) {
       line.points.push_back(place(point, cost));
       band.lower.emplace_back(point.*cost, point.error_low);
       band.upper.emplace_back(point.*cost, point.error_high);
-      if (point.factor == 1.0) {
+      if (point.factor == 1.0 && estimator(id).channels > 0) {
         chart.marks.push_back(
             {"default threshold", line.color, place(point, cost), MarkShape::diamond});
       }
@@ -199,7 +199,8 @@ Rgba8 paper_color(std::size_t line) {
   constexpr std::array colors{Rgba8{31, 119, 180}, Rgba8{230, 110, 0},  Rgba8{44, 150, 44},
                               Rgba8{214, 39, 40},  Rgba8{130, 80, 180}, Rgba8{140, 86, 75},
                               Rgba8{220, 90, 180}, Rgba8{23, 175, 195}, Rgba8{160, 160, 20},
-                              Rgba8{20, 60, 110},  Rgba8{0, 110, 90},   Rgba8{120, 0, 60}};
+                              Rgba8{20, 60, 110},  Rgba8{0, 110, 90},   Rgba8{120, 0, 60},
+                              Rgba8{150, 150, 150}};
   return colors[line % colors.size()];
 }
 

@@ -32,7 +32,7 @@ std::vector<Chart> sweep_charts(const SweepSummary& summary);
 /// would give a line of slope 1 or 2.
 Chart calibration_chart(const SweepResult& result);
 
-/// Colours that can be told apart on white paper, one a line; they repeat after a dozen.
+/// Colours that can be told apart on white paper, one a line; they repeat after thirteen.
 Rgba8 paper_color(std::size_t line);
 
 }  // namespace quartet

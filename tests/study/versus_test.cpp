@@ -104,6 +104,26 @@ TEST(Versus, ComparesAtTheGoalBetweenPasses) {
   EXPECT_LT(std::abs(parts.squared_bias), 0.2 * parts.variance);
 }
 
+TEST(Versus, WhereAFirstPassTakesMoreTheOtherGoesAsFar) {
+  SampleWorld world;
+  world.width = 8;
+  world.height = 8;
+  world.reference = std::make_shared<const RadianceImage>(test::noisy_truth(8, 8));
+  world.source = [](std::uint64_t) { return test::noisy_source(8); };
+  VersusPlan plan;
+  plan.lanes = {default_settings(EstimatorId::uniform), default_settings(EstimatorId::cycles)};
+  plan.lanes[1].policy.kind = PolicyId::converge;
+  plan.goal = 5.0;
+  plan.seeds = 2;
+  plan.metrics = {MetricId::mse};
+  const VersusResult result = *run_versus(world, plan, {}, {});
+  for (const VersusSeed& seed : result.seeds) {
+    EXPECT_EQ(seed.effort, 16.0) << "what converge takes before its first look";
+    EXPECT_EQ(seed.runs[0].passes.back().mean_spp, 16.0);
+    EXPECT_EQ(seed.runs[0].errors[0], seed.runs[0].passes.back().values[0]);
+  }
+}
+
 TEST(Versus, BiasAndVarianceOfAPictureThatIsTooDark) {
   // Every sample 0.5 of a truth of 1, on and off by 0.25 in turn with the seed.
   SampleWorld world;
