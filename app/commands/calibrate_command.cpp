@@ -180,14 +180,17 @@ void print_remarks(const Calibrations& found, const CommonBudget& budget) {
 
 void print_table(const Calibrations& found, const CommonBudget& budget,
                  const CalibrateOptions& options) {
-  fmt::print("{:<22} {:>9} {:<30} {:>6} {:>9} {:>9}{}\n", "estimator", "factor", "thresholds",
-             "passes", "mean spp", "seconds",
-             budget.error ? fmt::format(" {:>11}", metric(budget.error->metric).id) : "");
+  fmt::print(
+      "{:<22} {:>9} {:<30} {:>6} {:>9} {:>9}{}\n", "estimator", "factor", "thresholds", "passes",
+      "mean spp", "seconds",
+      budget.error ? fmt::format(" {:>11} {:>10}", metric(budget.error->metric).id, "energy") : "");
   for (const Calibration& each : found.rows()) {
     fmt::print("{:<22} {:>9.4g} {:<30} {:>6} {:>9.2f} {:>9.3f}{}\n",
                estimator(each.settings.estimator).label, each.factor, thresholds_of(each.settings),
                each.result.record.pass, each.result.mean_spp, each.result.record.seconds,
-               budget.error ? fmt::format(" {:>11.4g}", each.result.values.front()) : "");
+               budget.error ? fmt::format(" {:>11.4g} {:>+8.2f} %", each.result.values.front(),
+                                          100.0 * each.result.energy)
+                            : "");
   }
   print_remarks(found, budget);
   // What has no threshold, or none that does, is nothing to compare like with like.
@@ -240,6 +243,7 @@ nlohmann::ordered_json json_of(const Calibration& found, bool baseline,
   entry["seconds"] = found.result.record.seconds;
   if (budget.error) {
     entry[std::string(metric(budget.error->metric).id)] = found.result.values.front();
+    entry["energy_error"] = found.result.energy;
   }
   entry["runs"] = found.runs;
   entry["lane"] = lane_text(found.settings);

@@ -65,17 +65,17 @@ std::vector<LaneSettings> sweep_lanes(const SweepOptions& options, const StopCon
       lanes.estimators.emplace_back(row.id);
     }
   }
-  std::vector<LaneSettings> lane_settings =
-      settings_of_lanes(lanes, options.run.lane_settings, stop);
   // The baselines are in every sweep: uniform sampling with passes for its thresholds, and what
   // loses light by design, so that a gain of that kind is known when it is seen.
-  const auto is_one = [](EstimatorId id) {
-    return [id](const LaneSettings& settings) { return settings.estimator == id; };
-  };
-  std::erase_if(lane_settings, is_one(EstimatorId::uniform));
-  if (std::ranges::none_of(lane_settings, is_one(EstimatorId::uniform_clamp))) {
-    lane_settings.push_back(default_settings(EstimatorId::uniform_clamp));
+  const std::string clamp(estimator(EstimatorId::uniform_clamp).id);
+  if (std::ranges::find(lanes.estimators, clamp) == lanes.estimators.end()) {
+    lanes.estimators.push_back(clamp);
   }
+  std::vector<LaneSettings> lane_settings =
+      settings_of_lanes(lanes, options.run.lane_settings, stop);
+  std::erase_if(lane_settings, [](const LaneSettings& settings) {
+    return settings.estimator == EstimatorId::uniform;
+  });
   return lane_settings;
 }
 

@@ -62,9 +62,13 @@ VersusPlan versus_plan(const VersusOptions& options) {
       plan.metrics.push_back(id);
     }
   }
-  for (std::size_t i = 0; i < plan.lanes.size(); ++i) {
-    plan.lanes[i] = parse_lane(options.lanes[i], options.run.lane_settings);
+  LaneOptions lanes;
+  lanes.lanes = {options.lanes.begin(), options.lanes.end()};
+  StopConditions stop;
+  if (plan.effort == Effort::mean_spp) {
+    stop.spp = plan.goal;
   }
+  std::ranges::copy(settings_of_lanes(lanes, options.run.lane_settings, stop), plan.lanes.begin());
   if (plan.lanes[0] == plan.lanes[1]) {
     throw UsageError(fmt::format("'{}' and '{}' are the same lane; two that differ would be right",
                                  options.lanes[0], options.lanes[1]));

@@ -61,7 +61,7 @@ std::string energy_sentence(const VersusReport& report) {
   std::string text;
   for (std::size_t lane = 0; lane < lane_letters.size(); ++lane) {
     const Interval energy = energy_of(report.result, lane, report.each_rate());
-    if (!energy.contains(0.0)) {
+    if (!std::isnan(energy.mean) && !energy.contains(0.0)) {
       text += fmt::format(" {} is too {}: energy {}.", lane_letters[lane],
                           energy.mean < 0.0 ? "dark" : "bright", percent_text(energy));
     }
@@ -94,7 +94,7 @@ std::string versus_sentence(const VersusReport& report) {
                        ratio_text(ratio));
   }
   if (const auto effort = crossing(report.result, report.plan, report.metric)) {
-    text += fmt::format(" They cross at {}.", effort_text(report, *effort));
+    text += fmt::format(" The lead changed last at {}.", effort_text(report, *effort));
   }
   return text + energy_sentence(report);
 }
@@ -119,12 +119,15 @@ std::string versus_text(const VersusReport& report) {
     text += fmt::format("{:<16} {:>28}\n", metric(report.plan.metrics[m]).id,
                         ratio_text(error_ratio(report.result, m, report.each_rate())));
   }
+  const std::string floor =
+      std::isnan(report.noise_floor)
+          ? ""
+          : fmt::format(" Of each bias², {:.2g} is the reference's own noise.", report.noise_floor);
   text += fmt::format(
       "\nA: {}\nB: {}\n{} seeds, sampler {}; {:g} % intervals, all together. Efforts, bias² and "
-      "variance (of MSE,\nradiance²; the reference's own noise is {:.2g} of the bias²) are of the "
-      "ends of the runs.\n\n{}\n",
+      "variance (of MSE,\nradiance²) are of the ends of the runs.{}\n\n{}\n",
       lane_text(report.plan.lanes[0]), lane_text(report.plan.lanes[1]), report.result.seeds.size(),
-      sampler_row(report.run.settings.sampler).id, 100.0 * report.confidence, report.noise_floor,
+      sampler_row(report.run.settings.sampler).id, 100.0 * report.confidence, floor,
       versus_sentence(report));
   return text;
 }

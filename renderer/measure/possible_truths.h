@@ -20,7 +20,8 @@ namespace quartet {
 /// Two corrections. n² is of the neighbours, and beside the edge of a bright light much more than
 /// the pixel's own: 1 − k is taken to the power of 1.2, with as much more of d, which of 1 to 3
 /// came nearest to what better references measure. Few pixels say little about s²: the distance
-/// from `image` is scaled to be, in the mean over the picture, the noise that the halves have.
+/// from `image` is scaled to be, in the mean over the picture, the noise that the halves have,
+/// or twice what it was where that would take more.
 ///
 /// A pixel that is not finite is no neighbour, and stays as it is in `image`. All have one size.
 std::array<RadianceImage, 2> possible_truths(const RadianceImage& image,

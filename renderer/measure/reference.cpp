@@ -96,8 +96,9 @@ double Reference::noise_floor(MetricId id) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Metric& row = metric(id);
-  if (id == MetricId::mse || id == MetricId::rmse) {
-    // The halves alone tell how large the noise is, whatever the truth.
+  if (id == MetricId::mse || id == MetricId::rmse || id == MetricId::relmse_regions) {
+    // The halves alone tell how large the noise is, whatever the truth; also that of the mean of a
+    // region, which a guess from neighbours would hardly move.
     RadianceImage off = image;
     for (std::size_t i = 0; i < off.size(); ++i) {
       off.pixels()[i] += 0.5f * (halves[0].pixels()[i] - halves[1].pixels()[i]);

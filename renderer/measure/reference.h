@@ -48,10 +48,10 @@ struct Reference {
   /// Whether it can be said of which scene it is.
   bool ours() const { return !scene_hash.empty(); }
 
-  /// What a metric says of a picture that is right, because the reference is not. For mse and rmse
-  /// that is the mean squared difference of the halves over 4, the variance of the reference; for
-  /// the others the metric of possible_truths(), whose mean squared distance is the same. Of rare
-  /// bright light that neither half has seen, it knows nothing: then relmse is too low. Errors
+  /// What a metric says of a picture that is right, because the reference is not. For mse, rmse and
+  /// relmse_regions it is that of a difference of half of that between the halves, whose variance is
+  /// the reference's; for the others that of possible_truths(), which are as far off in the mean. Of
+  /// rare bright light that neither half has seen, it knows nothing: then relmse is too low. Errors
   /// below it mean nothing (psnr: above it). NaN if there are no halves.
   double noise_floor(MetricId id) const;
 };

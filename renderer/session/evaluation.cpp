@@ -26,7 +26,7 @@ void evaluate(const EvaluationInput& input, const std::stop_token& stop,
   for (const LaneSnapshot& lane : input.snapshot->lanes) {
     images.push_back(radiance_image(*input.snapshot, lane));
   }
-  if (input.snapshot->baseline) {
+  if (input.snapshot->baseline && !input.snapshot->baseline_picture_is_later) {
     images.push_back(radiance_image(*input.snapshot, *input.snapshot->baseline));
   }
   for (std::size_t m = 0; m < metrics().size(); ++m) {

@@ -21,7 +21,7 @@ struct Evaluation {
   std::shared_ptr<const Reference> reference;
   MetricValues noise_floor;         ///< of the reference
   std::vector<MetricValues> lanes;  ///< of the snapshot, in its order
-  MetricValues baseline;            ///< of its uniform sampling
+  MetricValues baseline;            ///< of its uniform sampling, where it has the picture
   /// Of the lanes' estimators; null until it is known.
   std::shared_ptr<const std::vector<EstimatorQuality>> quality;
   bool complete = false;  ///< nothing more will come

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/adaptive/effort.h"
 #include "renderer/measure/energy.h"
+#include "renderer/session/baseline.h"
 
 namespace quartet {
 namespace {
@@ -157,22 +157,23 @@ bool LabWorker::measure_anew() {
   return true;
 }
 
-/// Takes uniform sampling as far as the dearest lane has come, in every effort, so that lanes are
-/// compared with what it really gives for the same. False if it was stopped.
+/// Takes uniform sampling as far as the dearest lane, so that lanes are compared with what it
+/// really gives for the same. False if it was stopped.
 bool LabWorker::keep_up_baseline() {
   const std::size_t last = lab_->lanes().size() - 1;
   const Lane& baseline = lab_->lanes()[last];
-  const auto is_dearer = [&](const Lane& lane) {
-    return lane.pass() > 0 && std::ranges::any_of(efforts(), [&](const EffortRow& row) {
-             return row.of(lane.history().back(), lane.film().size()) >
-                    row.of(baseline.history().back(), lane.film().size());
-           });
-  };
+  std::vector<PassRecord> ends;
+  for (const Lane& lane : asked_lanes()) {
+    if (lane.pass() > 0) {
+      ends.push_back(lane.history().back());
+    }
+  }
   while (baseline.pass() > 0 && baseline.plan().total > 0 &&
-         std::ranges::any_of(asked_lanes(), is_dearer)) {
+         !is_enough(baseline.history().back(), ends)) {
     if (!lab_->run_pass_of(last, stop_.get_token())) {
       return false;
     }
+    measure();
   }
   return true;
 }
@@ -197,25 +198,25 @@ std::unique_ptr<Mailbox::Numbered> LabWorker::answer() {
     if (gives_way()) {
       return mailbox_.take();
     }
+    stop_ = std::stop_source();
+    if (tracing_gives_way()) {
+      stop_.request_stop();  // what is stored is replayed nevertheless
+    }
     if (lab_->pass() < current_->request.lanes.pass) {
       board_.status.activity = replaying_ ? Activity::replaying : Activity::tracing;
-      stop_ = std::stop_source();
-      if (tracing_gives_way()) {
-        stop_.request_stop();  // what is stored is replayed nevertheless
-      }
       // True errors are of each pass, and want its picture.
       const bool skips = replaying_ && !measured_against_;
       if (!lab_->run_passes(skips ? replays_to_ : lab_->pass() + 1, stop_.get_token())) {
         return mailbox_.take();
       }
-      if (measured_against_) {
-        if (!keep_up_baseline()) {
-          return mailbox_.take();
-        }
-        measure();
-      }
-      board_.describe(*lab_);
     }
+    if (measured_against_) {
+      measure();
+      if (!keep_up_baseline()) {
+        return mailbox_.take();
+      }
+    }
+    board_.describe(*lab_);
     if (replaying_ && lab_->pass() >= replays_to_) {
       replaying_ = false;
       board_.status.replay_seconds =

@@ -5,8 +5,29 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/base/parallel.h"
+#include "renderer/session/baseline.h"
 
 namespace quartet {
+namespace {
+
+/// Ends the baseline's history where it is enough for the lanes, wherever it was taken for others.
+void end_baseline(Snapshot& snapshot) {
+  std::vector<PassRecord> ends;
+  for (const LaneSnapshot& lane : snapshot.lanes) {
+    if (!lane.history.empty()) {
+      ends.push_back(lane.history.back());
+    }
+  }
+  std::vector<PassRecord>& history = snapshot.baseline->history;
+  const auto enough = std::ranges::find_if(
+      history, [&](const PassRecord& record) { return is_enough(record, ends); });
+  snapshot.baseline_picture_is_later = history.end() - enough > 1;
+  if (snapshot.baseline_picture_is_later) {
+    history.erase(enough + 1, history.end());
+  }
+}
+
+}  // namespace
 
 void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline) {
   snapshot.width = lab.width();
@@ -29,6 +50,9 @@ void copy_lanes(const Lab& lab, Snapshot& snapshot, bool last_is_baseline) {
       }
     });
   });
+  if (last_is_baseline) {
+    end_baseline(snapshot);
+  }
 }
 
 RadianceImage radiance_image(const Snapshot& snapshot, std::size_t lane) {

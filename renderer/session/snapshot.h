@@ -27,9 +27,11 @@ struct Snapshot {
   /// What true errors are measured against; null if there is nothing.
   std::shared_ptr<const RadianceImage> reference;
   MetricId metric = default_metric;  ///< of true errors
-  /// Uniform sampling, as far as the dearest of the lanes has come, in samples, rays and seconds;
-  /// with a reference only.
+  /// Uniform sampling, with a reference only. Its history ends where it is enough for all lanes
+  /// (baseline.h).
   std::optional<LaneSnapshot> baseline;
+  /// The picture of `baseline` is of a later pass: lanes went as far before.
+  bool baseline_picture_is_later = false;
 
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
 };

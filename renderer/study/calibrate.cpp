@@ -196,7 +196,8 @@ class Search {
     best_.runs = 1;
     for (const Measurement& each : *measured) {
       const double spent = spending(budget_, each);
-      if (nearer(spent)) {
+      // Of an error there is one, and where it is 0 nothing is nearer than anything.
+      if (budget_.error || nearer(spent)) {
         keep(settings_, 1.0, each, spent);
       }
     }

@@ -173,17 +173,24 @@ class ClaimLab {
     std::vector<ErrorCurve::Point> relmse;
     std::vector<ErrorCurve::Point> flip;
     double before = 0.0;
+    double first = 0.0;
+    RadianceImage picture_before;
     const bool ended = run_lab(lab_, stop_, [&] {
       const double seconds = lane().history().back().seconds;
-      // FLIP takes longer than a pass: only next to where it is asked for.
-      const auto is_near = [&](const ClaimRun& run) {
-        const double pass = seconds - before;
-        return std::abs(run.seconds - seconds) <= 1.5 * pass;
-      };
+      first = before > 0.0 ? first : seconds;
       relmse.push_back({seconds, error(MetricId::relmse)});
-      if (std::ranges::any_of(seed.runs, is_near)) {
+      // FLIP takes longer than a pass: only on both sides of where it is asked for.
+      const bool is_asked = std::ranges::any_of(seed.runs, [&](const ClaimRun& run) {
+        return run.seconds > before && run.seconds <= seconds;
+      });
+      RadianceImage picture = lane().film().image();
+      if (is_asked && before > 0.0) {
+        flip.push_back({before, metric(MetricId::flip).compute(picture_before, *world_.reference)});
+      }
+      if (is_asked) {
         flip.push_back({seconds, error(MetricId::flip)});
       }
+      picture_before = std::move(picture);
       before = seconds;
       return seconds < longest;
     });
@@ -193,8 +200,9 @@ class ClaimLab {
     const ErrorCurve relmse_curve(std::move(relmse));
     const ErrorCurve flip_curve(std::move(flip));
     for (ClaimRun& run : seed.runs) {
-      run.uniform_relmse = relmse_curve.error_at(run.seconds);
-      run.uniform_flip = flip_curve.error_at(run.seconds);
+      // A run that ends within uniform sampling's first pass is compared with that.
+      run.uniform_relmse = relmse_curve.error_at(std::max(run.seconds, first));
+      run.uniform_flip = flip_curve.error_at(std::max(run.seconds, first));
     }
     return true;
   }

@@ -102,11 +102,13 @@ BaselinePlan baseline_plan(std::span<const Measurement> passes, std::span<const 
 /// What uniform sampling gives for what other runs took; nothing if stopped.
 std::optional<std::vector<Measurement>> run_baseline(Experiment& experiment, const SweepPlan& plan,
                                                      std::span<const Measurement> ends,
+                                                     std::span<const Measurement> first_seed,
                                                      std::stop_token stop,
                                                      const std::function<void(double)>& tell) {
   RunPlan run{.settings = default_settings(EstimatorId::uniform),
               .stop = {},
               .measure_at = MeasureAt::every_pass};
+  run.settings.max_spp = most_spp;
   // A first run, of which only the costs are looked at, finds the passes.
   BaselinePlan found;
   found.reaches_all = false;
@@ -121,6 +123,12 @@ std::optional<std::vector<Measurement>> run_baseline(Experiment& experiment, con
       break;  // no pixel may take more samples
     }
   }
+  // All seeds are measured where the first was, so that a curve can be drawn of them.
+  for (const Measurement& pass : first_seed) {
+    found.measured.push_back(pass.record.pass);
+    found.passes = std::max(found.passes, pass.record.pass);
+  }
+  std::ranges::sort(found.measured);
   run.stop.passes = found.passes;
   run.metrics = plan.metrics;
   run.measure_at = MeasureAt::powers_of_two;
@@ -166,7 +174,9 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
     }
   }
   progress.begin_run(index, fmt::format("seed {}, uniform", seed));
-  auto uniform = run_baseline(experiment, plan, ends, stop, tell);
+  const std::span<const Measurement> first_seed =
+      result.uniform.empty() ? std::span<const Measurement>() : result.uniform.front();
+  auto uniform = run_baseline(experiment, plan, ends, first_seed, stop, tell);
   if (!uniform) {
     return false;
   }

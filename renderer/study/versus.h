@@ -67,8 +67,8 @@ std::optional<VersusResult> run_versus(
 Interval error_ratio(const VersusResult& result, std::size_t metric, double p);
 /// energy_error() of a lane, mean over the seeds.
 Interval energy_of(const VersusResult& result, std::size_t lane, double p);
-/// The effort from which on the lane that is worse at first is the better one, by the mean over the
-/// seeds of the logarithm of error_ratio; nothing if the same one is better throughout.
+/// The last effort at which the lead changes from one lane to the other, by the mean over the seeds
+/// of the logarithm of error_ratio; nothing if the same one is better throughout.
 std::optional<double> crossing(const VersusResult& result, const VersusPlan& plan,
                                std::size_t metric);
 

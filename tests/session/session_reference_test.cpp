@@ -7,8 +7,8 @@
 #include <cmath>
 #include <thread>
 
-#include "renderer/adaptive/effort.h"
 #include "renderer/measure/metrics.h"
+#include "renderer/session/baseline.h"
 #include "tests/session/session_cases.h"
 #include "tests/session/true_errors.h"
 
@@ -47,23 +47,17 @@ void expect_baseline(const Snapshot& snapshot, const LabRequest& request) {
   EXPECT_EQ(baseline.settings, uniform);
   const auto alone =
       headless_errors(request, std::span(&uniform, 1), baseline.history.back().pass).front();
-  for (const EffortRow& row : efforts()) {
-    for (const LaneSnapshot& lane : snapshot.lanes) {
-      EXPECT_GE(row.of(baseline.history.back(), snapshot.pixels()),
-                row.of(lane.history.back(), snapshot.pixels()))
-          << row.id;
-    }
+  std::vector<PassRecord> ends;
+  for (const LaneSnapshot& lane : snapshot.lanes) {
+    ends.push_back(lane.history.back());
   }
-  std::size_t compared = 0;
+  for (const PassRecord& record : baseline.history) {
+    EXPECT_EQ(is_enough(record, ends), &record == &baseline.history.back()) << "no further";
+  }
   for (const PassRecord& record : baseline.history) {
     EXPECT_EQ(record.samples, std::uint64_t(record.pass) * snapshot.pixels());
-    if (!std::isnan(record.truth.error)) {
-      EXPECT_EQ(record.truth.error, alone[record.pass - 1]);
-      ++compared;
-    }
+    EXPECT_EQ(record.truth.error, alone[record.pass - 1]) << "each pass is measured";
   }
-  EXPECT_GT(compared, 0u);
-  EXPECT_FALSE(std::isnan(baseline.history.back().truth.error)) << "the last is measured";
 }
 
 void expect_errors(Session& session, const LabRequest& request) {
@@ -180,6 +174,22 @@ TEST(SessionThreads, WithoutAnEndTheBaselineAloneKeepsNobodyAwake) {
       [&] { return session.latest() && session.latest()->pass >= 2 && !session.busy(); }));
   EXPECT_FALSE(session.busy());
   EXPECT_GE(session.latest()->pass, 2u);
+}
+
+TEST(Baseline, IsEnoughWhereItHasTakenAsMuchAsEachLane) {
+  const auto record = [](std::uint64_t samples, std::uint64_t rays, double seconds) {
+    PassRecord made;
+    made.samples = samples;
+    made.rays = rays;
+    made.seconds = seconds;
+    return made;
+  };
+  const std::array lanes{record(100, 300, 1.0), record(80, 400, 0.5)};
+  EXPECT_TRUE(is_enough(record(100, 400, 1.0), lanes));
+  EXPECT_FALSE(is_enough(record(99, 400, 1.0), lanes));
+  EXPECT_FALSE(is_enough(record(100, 399, 1.0), lanes));
+  EXPECT_FALSE(is_enough(record(124, 500, 0.9), lanes));
+  EXPECT_TRUE(is_enough(record(125, 500, 0.9), lanes)) << "a lane that was held up";
 }
 
 }  // namespace

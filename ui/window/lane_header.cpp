@@ -182,7 +182,7 @@ void draw_numbers(LabFrame& frame, std::size_t lane, const ScreenRect& box, bool
   }();
   const std::string bad = rejected > 0 ? fmt::format(" · {} rejected", rejected) : "";
   const Metric& row = metric(frame.snapshot->metric);
-  const std::string error = std::isnan(last.truth.error)
+  const std::string error = std::isnan(last.truth.error + last.truth.energy)
                                 ? ""
                                 : fmt::format(" · {} {:.3g}, energy {:+.1f} %", row.label,
                                               last.truth.error, 100.0 * last.truth.energy);

@@ -124,8 +124,7 @@ glm::vec3 Film::clamped(std::size_t pixel, const glm::vec3& sample, RunningMean&
     if (!is_above) {
       running.sum = min(running.sum, glm::dvec3(double(statistics_.clamp)));
       if (!replicates_.empty()) {
-        replicates_[pixel] = Replicates();
-        replicates_[pixel].add(rejected_[pixel], running.sum);
+        replicates_[pixel].cut(double(statistics_.clamp));
       }
     }
   }

@@ -42,8 +42,8 @@ struct FilmStatistics {
   /// `variance` or `chi2`, it is taken from the means of the sequences, which are kept for it.
   bool replicated = false;
 
-  /// Each channel of a sample is cut at this before it enters anything, except in pixels that see a
-  /// light, whose first two samples are both above it. Infinite: none is.
+  /// Each channel of a sample is cut at this before it enters mean and variance, except in pixels
+  /// that see a light, whose first two samples are both above it. Infinite: none is.
   float clamp = std::numeric_limits<float>::infinity();
 
   /// Whether means of samples alone are not enough.

@@ -22,6 +22,12 @@ struct Replicates {
     ++counts[r];
     means[r] += (sample - means[r]) / double(counts[r]);
   }
+  /// Cuts the only sample there is at `most`.
+  void cut(double most) {
+    for (glm::dvec3& mean : means) {
+      mean = min(mean, glm::dvec3(most));
+    }
+  }
 };
 
 /// An estimate of the variance of a pixel's mean.

@@ -141,8 +141,8 @@ std::vector<Column> columns_of(const LabFrame& frame, const std::vector<TableRow
   const std::string chosen(metric(frame.snapshot->metric).label);
   const Column last = column(
       "× uniform",
-      fmt::format("The {} of uniform sampling run to the same {}, over this lane's: above 1 the "
-                  "lane gains, if its energy is right.",
+      fmt::format("{} of uniform sampling at the same effort ({}), divided by this lane's: above 1 "
+                  "the lane gains, if its energy is right.",
                   chosen, effort_row(frame.state.dock.effort).label),
       [&](const TableRow& line) {
         return line.times_uniform ? fmt::format("{:.2f}", *line.times_uniform) : std::string("–");
