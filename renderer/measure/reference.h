@@ -49,10 +49,10 @@ struct Reference {
   bool ours() const { return !scene_hash.empty(); }
 
   /// What a metric says of a picture that is right, because the reference is not. For mse, rmse and
-  /// relmse_regions it is that of a difference of half of that between the halves, whose variance is
-  /// the reference's; for the others that of possible_truths(), which are as far off in the mean. Of
-  /// rare bright light that neither half has seen, it knows nothing: then relmse is too low. Errors
-  /// below it mean nothing (psnr: above it). NaN if there are no halves.
+  /// relmse_regions it is that of a difference of half of that between the halves, whose variance
+  /// is the reference's; for the others that of possible_truths(), which are as far off in the
+  /// mean. Of rare bright light that neither half has seen, it knows nothing: then relmse is too
+  /// low. Errors below it mean nothing (psnr: above it). NaN if there are no halves.
   double noise_floor(MetricId id) const;
 };
 

@@ -92,8 +92,7 @@ BaselinePlan baseline_plan(std::span<const Measurement> passes, std::span<const 
     }
   }
   std::ranges::sort(plan.measured);
-  const auto repeated = std::ranges::unique(plan.measured);
-  plan.measured.erase(repeated.begin(), repeated.end());
+  plan.measured.erase(std::unique(plan.measured.begin(), plan.measured.end()), plan.measured.end());
   const std::uint32_t last = plan.measured.empty() ? 1 : plan.measured.back();
   plan.passes = last + (last + 3) / 4;
   return plan;

@@ -187,22 +187,22 @@ class LateLight : public testing::Test {
   Measurement measured_at(double factor) {
     return experiment_
         .run({.settings = scaled_thresholds(settings_, factor),
-              .stop = {.passes = passes_},
+              .stop = {.passes = passes},
               .metrics = {MetricId::relmse}})
         ->back();
   }
   std::optional<Calibration> found_for(double error) {
     return calibrate(experiment_, settings_,
-                     {.passes = passes_, .error = ErrorTarget{MetricId::relmse, error}});
+                     {.passes = passes, .error = ErrorTarget{MetricId::relmse, error}});
   }
 
-  static constexpr int width_ = 48;
-  static constexpr int height_ = 24;
-  static constexpr std::uint32_t passes_ = 60;
+  static constexpr int width = 48;
+  static constexpr int height = 24;
+  static constexpr std::uint32_t passes = 60;
   LaneSettings settings_ = default_settings(EstimatorId::confidence);
   Experiment experiment_ =
-      Experiment(late_light_source(width_), width_, height_, {},
-                 std::make_shared<const RadianceImage>(test::noisy_truth(width_, height_)));
+      Experiment(late_light_source(width), width, height, {},
+                 std::make_shared<const RadianceImage>(test::noisy_truth(width, height)));
 };
 
 TEST_F(LateLight, OfTheThresholdsThatMeetAnErrorTheCheapestIsTaken) {
