@@ -1,5 +1,8 @@
 #include "renderer/measure/energy.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <limits>
 
 namespace quartet {
@@ -13,9 +16,15 @@ double mean_luminance(const RadianceImage& image) {
 }
 
 double energy_error(const RadianceImage& test, const RadianceImage& reference) {
-  const double right = mean_luminance(reference);
-  return right > 0.0 ? mean_luminance(test) / right - 1.0
-                     : std::numeric_limits<double>::quiet_NaN();
+  return energy_error(mean_luminance(test), mean_luminance(reference));
+}
+
+double energy_error(double test, double reference) {
+  return reference > 0.0 ? test / reference - 1.0 : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string energy_text(double energy) {
+  return std::isnan(energy) ? "–" : fmt::format("{:+.2f} %", 100.0 * energy);
 }
 
 }  // namespace quartet

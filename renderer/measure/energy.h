@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "renderer/base/image.h"
 
 namespace quartet {
@@ -12,5 +14,10 @@ double mean_luminance(const RadianceImage& image);
 /// mean has none but by chance; what is clamped, or stops where samples happen to agree, is too
 /// dark. NaN if the reference is black.
 double energy_error(const RadianceImage& test, const RadianceImage& reference);
+/// The same of mean luminances.
+double energy_error(double test, double reference);
+
+/// "+1.25 %"; a dash if it is NaN.
+std::string energy_text(double energy);
 
 }  // namespace quartet

@@ -32,6 +32,9 @@ struct Metric {
   bool higher_is_better = false;
   /// A pixel's error also depends on its neighbours; the metric is the mean of its map.
   bool looks_around = false;
+  /// Its noise floor is told by the halves of a reference alone, whatever the truth:
+  /// Reference::noise_floor().
+  bool floor_by_halves = false;
   /// The metric. Does not depend on the number of threads; runs on those of the current TBB arena.
   /// Throws std::invalid_argument if the sizes differ, a picture is empty, or a pixel that is not
   /// finite makes the metric meaningless (with its place).

@@ -10,7 +10,7 @@
 #include "renderer/files/exr.h"
 #include "renderer/files/picture.h"
 #include "renderer/measure/left_out.h"
-#include "renderer/measure/possible_truths.h"
+#include "renderer/measure/noise_floors.h"
 #include "renderer/measure/reference_sums.h"
 
 namespace quartet {
@@ -92,23 +92,7 @@ std::array<std::uint64_t, 2> half_seeds(std::uint64_t seed) {
 }
 
 double Reference::noise_floor(MetricId id) const {
-  if (halves[0].empty() || spp < 2) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const Metric& row = metric(id);
-  if (id == MetricId::mse || id == MetricId::rmse || id == MetricId::relmse_regions) {
-    // The halves alone tell how large the noise is, whatever the truth; also that of the mean of a
-    // region, which a guess from neighbours would hardly move.
-    RadianceImage off = image;
-    for (std::size_t i = 0; i < off.size(); ++i) {
-      off.pixels()[i] += 0.5f * (halves[0].pixels()[i] - halves[1].pixels()[i]);
-    }
-    return compute_over_finite(row, off, image);
-  }
-  // Neighbours are those that the metric looks at together, or the nearest.
-  const auto truths = possible_truths(image, halves, row.looks_around ? 2.0 : 1.0);
-  return 0.5 *
-         (compute_over_finite(row, truths[0], image) + compute_over_finite(row, truths[1], image));
+  return NoiseFloors(*this).of(metric(id));
 }
 
 std::optional<Reference> load_own_reference(const std::filesystem::path& path,

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "renderer/base/version.h"
+#include "renderer/measure/noise_floors.h"
 #include "renderer/scene/synthetic.h"
 
 namespace quartet {
@@ -188,10 +189,10 @@ ReferenceSums::Half half_of(const Header& header, std::size_t half, std::size_t 
 }
 
 std::string noise_floor_text(const Reference& reference) {
+  NoiseFloors floors(reference);
   std::string text;
   for (const Metric& row : metrics()) {
-    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", row.id,
-                        reference.noise_floor(row.key));
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", row.id, floors.of(row));
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "renderer/measure/noise_floors.h"
 #include "renderer/measure/quality.h"
 
 namespace quartet {
@@ -29,6 +30,7 @@ void evaluate(const EvaluationInput& input, const std::stop_token& stop,
   if (input.snapshot->baseline && !input.snapshot->baseline_picture_is_later) {
     images.push_back(radiance_image(*input.snapshot, *input.snapshot->baseline));
   }
+  NoiseFloors floors(*input.reference);
   for (std::size_t m = 0; m < metrics().size(); ++m) {
     const Metric& row = metrics()[m];
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -39,7 +41,7 @@ void evaluate(const EvaluationInput& input, const std::stop_token& stop,
       values[m] = row.compute(images[i], input.reference->image);
     }
     if (!floors_are_known) {
-      next.noise_floor[m] = input.reference->noise_floor(row.key);
+      next.noise_floor[m] = floors.of(row);
     }
     publish(next);
   }

@@ -78,6 +78,7 @@ constexpr Metric relmse_regions_metric{
         "counts as in relMSE, bias n times",
     .scale = MetricScale::squared_error,
     .looks_around = true,
+    .floor_by_halves = true,
     .compute = regional_error,
     .map = regional_map,
     .map_quantity = "n (x − r)²/(r² + 0.01) of the pixel's region"};
