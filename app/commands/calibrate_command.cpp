@@ -21,6 +21,7 @@
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/shell_words.h"
+#include "renderer/measure/energy.h"
 #include "renderer/study/calibrate.h"
 
 namespace quartet {
@@ -188,8 +189,8 @@ void print_table(const Calibrations& found, const CommonBudget& budget,
     fmt::print("{:<22} {:>9.4g} {:<30} {:>6} {:>9.2f} {:>9.3f}{}\n",
                estimator(each.settings.estimator).label, each.factor, thresholds_of(each.settings),
                each.result.record.pass, each.result.mean_spp, each.result.record.seconds,
-               budget.error ? fmt::format(" {:>11.4g} {:>+8.2f} %", each.result.values.front(),
-                                          100.0 * each.result.energy)
+               budget.error ? fmt::format(" {:>11.4g} {:>10}", each.result.values.front(),
+                                          energy_text(each.result.energy))
                             : "");
   }
   print_remarks(found, budget);
@@ -275,10 +276,10 @@ void run_calibrate(const CalibrateOptions& options, const Program& program) {
   check_use(options, lane_settings, budget);
   Run run = prepare_run(options.run, 1);
   run.lab.statistics = {};
-  std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
-  if (!reference && budget.error) {
-    reference = reference_for(run, options.reference_spp, program.command_line);
-  }
+  const std::shared_ptr<const Reference> reference =
+      budget.error
+          ? chosen_or_made(options.reference, run, options.reference_spp, program.command_line)
+          : reference_at(options.reference, run);
   run.lab.reference = truth_for(lane_settings, reference);
   Experiment experiment(sample_source(run.scene, run.settings), run.settings.width,
                         run.settings.height, run.lab, image_of(reference));

@@ -38,10 +38,8 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
   if (!csv.empty()) {
     files.emplace(csv.parent_path(), std::vector{csv.filename().string()});
   }
-  std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
-  if (!reference) {
-    reference = reference_for(run, options.reference_spp, program.command_line);
-  }
+  const std::shared_ptr<const Reference> reference =
+      chosen_or_made(options.reference, run, options.reference_spp, program.command_line);
   const SampleWorld world = sample_world(run.scene, run.settings, run.lab, image_of(reference));
   std::optional<ClaimData> data;
   {

@@ -17,7 +17,9 @@
 #include "renderer/base/version.h"
 #include "renderer/files/picture.h"
 #include "renderer/files/staged_files.h"
+#include "renderer/measure/energy.h"
 #include "renderer/measure/left_out.h"
+#include "renderer/measure/noise_floors.h"
 #include "renderer/measure/reference.h"
 #include "ui/paper/error_figure.h"
 
@@ -175,8 +177,7 @@ glm::dvec3 mean(const RadianceImage& image, const LeftOut& left_out) {
 double energy_error_of(const CompareResult& comparison) {
   const glm::dvec3 x = mean(comparison.test, comparison.not_finite);
   const glm::dvec3 r = mean(comparison.reference.image, comparison.not_finite);
-  const double right = luminance(r.r, r.g, r.b);
-  return right > 0.0 ? luminance(x.r, x.g, x.b) / right - 1.0 : std::nan("");
+  return energy_error(luminance(x.r, x.g, x.b), luminance(r.r, r.g, r.b));
 }
 
 /// JSON has no infinity: the decibels of two equal pictures are null.
@@ -203,9 +204,10 @@ ordered_json record_of(const CompareOptions& options, const CompareResult& compa
                       {"not_covered", comparison.uncovered}};
   json["test_mean"] = rgb(mean(comparison.test, comparison.not_finite));
   json["reference_mean"] = rgb(mean(reference.image, comparison.not_finite));
+  NoiseFloors floors(reference);
   for (const Metric& row : metrics()) {
     json["metrics"][row.id] = number(compute_over_finite(row, comparison.test, reference.image));
-    json["noise_floor"][row.id] = number(reference.noise_floor(row.key));
+    json["noise_floor"][row.id] = number(floors.of(row));
   }
   json["metrics"]["energy_error"] = number(energy_error_of(comparison));
   json["seconds"] = comparison.seconds ? ordered_json(*comparison.seconds) : ordered_json(nullptr);
@@ -220,12 +222,12 @@ void print_table(const CompareOptions& options, const CompareResult& comparison)
   const Reference& reference = comparison.reference;
   fmt::print("{} against {}, {}x{}\n", options.test, options.reference, comparison.width,
              comparison.height);
-  const bool floors = !std::isnan(reference.noise_floor(MetricId::mse));
-  fmt::print("{:<15} {:>12} {:>12}  {:<9} {}\n", "metric", "value", floors ? "noise floor" : "",
+  NoiseFloors floors(reference);
+  const bool known = !std::isnan(floors.of(metric(MetricId::mse)));
+  fmt::print("{:<15} {:>12} {:>12}  {:<9} {}\n", "metric", "value", known ? "noise floor" : "",
              "unit", "definition (x test, r reference)");
   for (const Metric& row : metrics()) {
-    const std::string floor =
-        floors ? fmt::format("{:.6g}", reference.noise_floor(row.key)) : std::string();
+    const std::string floor = known ? fmt::format("{:.6g}", floors.of(row)) : std::string();
     fmt::print("{:<15} {:>12.6g} {:>12}  {:<9} {}\n", row.id,
                compute_over_finite(row, comparison.test, reference.image), floor, row.unit,
                row.definition);

@@ -44,9 +44,8 @@ void print_table(const Snapshot& snapshot, const std::filesystem::path& out) {
     std::string error;
     if (snapshot.reference) {
       const RadianceImage image = radiance_image(snapshot, i);
-      error =
-          fmt::format(" {:>+7.2f} % {:>17.3g}", 100.0 * energy_error(image, *snapshot.reference),
-                      row.compute(image, *snapshot.reference));
+      error = fmt::format(" {:>9} {:>17.3g}", energy_text(energy_error(image, *snapshot.reference)),
+                          row.compute(image, *snapshot.reference));
     }
     // Labels are UTF-8: fmt pads by what is seen.
     fmt::print("{:<22} {:>7} {:>9.2f} {:>9} {:>9.2f} {:>7.1f} %{}\n",

@@ -85,8 +85,8 @@ void print_summary(const std::filesystem::path& path, const Snapshot& snapshot,
   if (reference != nullptr) {
     const Metric& row = metric(default_metric);
     const RadianceImage image = radiance_image(snapshot, 0);
-    fmt::print(", {} {:.4g}, energy {:+.2f} %", row.label, row.compute(image, reference->image),
-               100.0 * energy_error(image, reference->image));
+    fmt::print(", {} {:.4g}, energy {}", row.label, row.compute(image, reference->image),
+               energy_text(energy_error(image, reference->image)));
   }
   fmt::print("\n");
 }

@@ -20,6 +20,7 @@
 #include "renderer/base/interval.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/files/staged_files.h"
+#include "renderer/measure/energy.h"
 #include "renderer/view/sweep_charts.h"
 #include "renderer/view/ticks.h"
 
@@ -126,11 +127,10 @@ void print_points(const SweepSummary& summary) {
       best = point.against_uniform[counted] < best->against_uniform[counted] ? &point : best;
     }
     const auto print = [&](std::string_view label, const SweepPoint& point, std::string_view note) {
-      fmt::print(
-          "{:<22} {:>9.3g} {:>9.2f} {:>9.3f} {:>11.4g} {:>+7.2f} % {:>11.3f} {:>11.3f}   {}\n",
-          label, point.factor, point.mean_spp, point.seconds, point.error, 100.0 * point.energy,
-          point.against_uniform[counted], point.against_uniform[std::size_t(Effort::seconds)],
-          note);
+      fmt::print("{:<22} {:>9.3g} {:>9.2f} {:>9.3f} {:>11.4g} {:>9} {:>11.3f} {:>11.3f}   {}\n",
+                 label, point.factor, point.mean_spp, point.seconds, point.error,
+                 energy_text(point.energy), point.against_uniform[counted],
+                 point.against_uniform[std::size_t(Effort::seconds)], note);
     };
     print(estimator(id).label, *normal,
           estimator(id).channels > 0 ? "at its default threshold" : "which loses light by design");
@@ -140,9 +140,9 @@ void print_points(const SweepSummary& summary) {
     begin = end;
   }
   const SweepPoint& uniform = summary.uniform.back();
-  fmt::print("{:<22} {:>9} {:>9.2f} {:>9.3f} {:>11.4g} {:>+7.2f} % {:>11.3f} {:>11.3f}\n",
-             "uniform", "", uniform.mean_spp, uniform.seconds, uniform.error,
-             100.0 * uniform.energy, 1.0, 1.0);
+  fmt::print("{:<22} {:>9} {:>9.2f} {:>9.3f} {:>11.4g} {:>9} {:>11.3f} {:>11.3f}\n", "uniform", "",
+             uniform.mean_spp, uniform.seconds, uniform.error, energy_text(uniform.energy), 1.0,
+             1.0);
 }
 
 void print_savings(const SweepResult& result) {
@@ -216,10 +216,8 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   // Variances would cost every run memory and time, and no estimator that does not ask for them.
   run.lab.statistics = {};
   StagedFiles files(options.out, sweep_file_names());
-  std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
-  if (!reference) {
-    reference = reference_for(run, options.reference_spp, program.command_line);
-  }
+  const std::shared_ptr<const Reference> reference =
+      chosen_or_made(options.reference, run, options.reference_spp, program.command_line);
   const SampleWorld world = sample_world(run.scene, run.settings, run.lab, image_of(reference));
   const Interrupt interrupt;
   std::optional<SweepResult> result;

@@ -87,10 +87,8 @@ void run_versus_command(const VersusOptions& options, const Program& program) {
   if (!csv.empty()) {
     files.emplace(csv.parent_path(), std::vector{csv.filename().string()});
   }
-  std::shared_ptr<const Reference> reference = reference_at(options.reference, run);
-  if (!reference) {
-    reference = reference_for(run, options.reference_spp, program.command_line);
-  }
+  const std::shared_ptr<const Reference> reference =
+      chosen_or_made(options.reference, run, options.reference_spp, program.command_line);
   const SampleWorld world = sample_world(run.scene, run.settings, run.lab, image_of(reference));
   std::optional<VersusResult> result;
   {
@@ -106,7 +104,6 @@ void run_versus_command(const VersusOptions& options, const Program& program) {
   const VersusReport report{.run = run,
                             .plan = plan,
                             .result = *result,
-                            .metric = 0,
                             .confidence = options.confidence,
                             .noise_floor = reference->noise_floor(MetricId::mse),
                             .command_line = program.command_line};

@@ -126,6 +126,13 @@ std::shared_ptr<const RadianceImage> truth_for(std::span<const LaneSettings> lan
   return image_of(reference);
 }
 
+std::shared_ptr<const Reference> chosen_or_made(const ReferenceChoice& choice, const Run& run,
+                                                std::uint64_t spp,
+                                                const std::string& command_line) {
+  std::shared_ptr<const Reference> chosen = reference_at(choice, run);
+  return chosen ? chosen : reference_for(run, spp, command_line);
+}
+
 bool run_reference(ReferenceRender& render, const ReferenceGoal& goal, int threads,
                    std::stop_token stop) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

@@ -48,6 +48,10 @@ std::shared_ptr<const RadianceImage> truth_for(std::span<const LaneSettings> lan
 std::shared_ptr<const Reference> reference_for(const Run& run, std::uint64_t spp,
                                                const std::string& command_line);
 
+/// The one that was chosen, else one for the run with so many samples: both as above.
+std::shared_ptr<const Reference> chosen_or_made(const ReferenceChoice& choice, const Run& run,
+                                                std::uint64_t spp, const std::string& command_line);
+
 /// How far a reference is to be taken: the first that is met ends it.
 struct ReferenceGoal {
   std::optional<std::uint64_t> spp;  ///< in all

@@ -18,6 +18,7 @@
 #include "renderer/base/version.h"
 #include "renderer/measure/energy.h"
 #include "renderer/measure/metrics.h"
+#include "renderer/measure/noise_floors.h"
 #include "renderer/trace/store/sample_store.h"
 #include "renderer/view/views.h"
 
@@ -100,8 +101,9 @@ ordered_json reference_json(const Reference& reference) {
   json["spp"] = reference.ours() ? ordered_json(reference.spp) : ordered_json(nullptr);
   json["sampler"] = reference.ours() ? ordered_json(sampler_row(reference.settings.sampler).id)
                                      : ordered_json(nullptr);
+  NoiseFloors floors(reference);
   for (const Metric& row : metrics()) {
-    json["noise_floor"][row.id] = number_json(reference.noise_floor(row.key));
+    json["noise_floor"][row.id] = number_json(floors.of(row));
   }
   return json;
 }
@@ -196,6 +198,29 @@ std::string thresholds_text(const LaneSettings& settings) {
     text += fmt::format("{}{}", c > 0 ? " " : "", settings.thresholds[std::size_t(c)]);
   }
   return text;
+}
+
+std::string csv_lane(const Run& run, const LaneSettings& settings, std::uint64_t seed) {
+  return fmt::format("{},{},{},{},{},{},{}", csv_field(run.scene->scene().name),
+                     sampler_row(run.settings.sampler).id, estimator(settings.estimator).id,
+                     policy(settings.policy.kind).id, sample_mode(settings.mode).id,
+                     thresholds_text(settings), seed);
+}
+
+std::string csv_measurement(const Run& run, const LaneSettings& settings, std::uint64_t seed,
+                            const Measurement& measurement) {
+  const PassRecord& record = measurement.record;
+  return fmt::format("{},{},{:.6f},{},{},{:.6f}", csv_lane(run, settings, seed), record.pass,
+                     record.seconds, record.rays, record.samples, measurement.mean_spp);
+}
+
+std::string csv_metric_rows(const std::string& head, std::span<const MetricId> metrics,
+                            const Measurement& measurement) {
+  std::string csv;
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    csv += fmt::format("{},{},{:.9g}\n", head, metric(metrics[m]).id, measurement.values[m]);
+  }
+  return csv + fmt::format("{},energy_error,{:.9g}\n", head, measurement.energy);
 }
 
 std::string csv_record(const Snapshot& snapshot) {

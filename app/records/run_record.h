@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "app/options/run_options.h"
 #include "renderer/measure/reference.h"
 #include "renderer/session/snapshot.h"
+#include "renderer/study/experiment.h"
 
 namespace quartet {
 
@@ -41,6 +44,14 @@ inline constexpr std::string_view csv_header =
     "value\n";
 /// The thresholds that matter, separated by spaces: no comma inside a CSV field.
 std::string thresholds_text(const LaneSettings& settings);
+
+/// The fields of csv_header up to `seed`, and up to `mean_spp`.
+std::string csv_lane(const Run& run, const LaneSettings& settings, std::uint64_t seed);
+std::string csv_measurement(const Run& run, const LaneSettings& settings, std::uint64_t seed,
+                            const Measurement& measurement);
+/// A row for each of the metrics that it was measured in, and one for its energy.
+std::string csv_metric_rows(const std::string& head, std::span<const MetricId> metrics,
+                            const Measurement& measurement);
 
 /// Long form, one row a measurement: scene, sampler, estimator, policy, thresholds, seed, pass,
 /// seconds, rays, samples, mean_spp, metric, value. Every pass of every lane; the errors against a

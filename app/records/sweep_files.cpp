@@ -13,29 +13,6 @@
 namespace quartet {
 namespace {
 
-std::string row_head(const SweepReport& report, const LaneSettings& settings, std::uint64_t seed) {
-  return fmt::format("{},{},{},{},{},{},{}", csv_field(report.run.scene->scene().name),
-                     sampler_row(report.run.settings.sampler).id, estimator(settings.estimator).id,
-                     policy(settings.policy.kind).id, sample_mode(settings.mode).id,
-                     thresholds_text(settings), seed);
-}
-
-std::string measurement_head(const SweepReport& report, const LaneSettings& settings,
-                             std::uint64_t seed, const Measurement& measurement) {
-  const PassRecord& record = measurement.record;
-  return fmt::format("{},{},{:.6f},{},{},{:.6f}", row_head(report, settings, seed), record.pass,
-                     record.seconds, record.rays, record.samples, measurement.mean_spp);
-}
-
-void add_metrics(const SweepReport& report, const std::string& head, const Measurement& measurement,
-                 std::string& csv) {
-  for (std::size_t m = 0; m < report.plan.metrics.size(); ++m) {
-    csv += fmt::format("{},{},{:.9g}\n", head, metric(report.plan.metrics[m]).id,
-                       measurement.values[m]);
-  }
-  csv += fmt::format("{},energy_error,{:.9g}\n", head, measurement.energy);
-}
-
 std::string stop_text(const StopConditions& stop) {
   std::string text;
   const auto add = [&](const std::string& word) { text += (text.empty() ? "" : " or ") + word; };
@@ -81,17 +58,17 @@ void write_figure(StagedFiles& files, const std::string& name, const ChartFigure
 
 std::string sweep_csv(const SweepReport& report) {
   std::string csv(csv_header);
+  const LaneSettings uniform = default_settings(EstimatorId::uniform);
   for (std::size_t k = 0; k < report.result.uniform.size(); ++k) {
     for (const Measurement& measurement : report.result.uniform[k]) {
-      add_metrics(report,
-                  measurement_head(report, default_settings(EstimatorId::uniform),
-                                   report.result.first_seed + k, measurement),
-                  measurement, csv);
+      csv += csv_metric_rows(
+          csv_measurement(report.run, uniform, report.result.first_seed + k, measurement),
+          report.plan.metrics, measurement);
     }
   }
   for (const SweepRun& run : report.result.runs) {
-    const std::string head = measurement_head(report, run.settings, run.seed, run.end);
-    add_metrics(report, head, run.end, csv);
+    const std::string head = csv_measurement(report.run, run.settings, run.seed, run.end);
+    csv += csv_metric_rows(head, report.plan.metrics, run.end);
     for (const auto& [name, value] : {std::pair{"rank_correlation", run.quality.rank_correlation},
                                       {"false_stops", run.quality.stops.share()},
                                       {"oracle_distance", run.oracle_distance}}) {
@@ -109,7 +86,7 @@ std::string calibration_csv(const SweepReport& report) {
       "pixels\n";
   for (const SweepRun& run : report.result.runs) {
     for (const CalibrationBin& bin : run.quality.calibration) {
-      csv += fmt::format("{},{:.6g},{:.6g},{}\n", row_head(report, run.settings, run.seed),
+      csv += fmt::format("{},{:.6g},{:.6g},{}\n", csv_lane(report.run, run.settings, run.seed),
                          bin.estimated, bin.true_squared_error, bin.pixels);
     }
   }

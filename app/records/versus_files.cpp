@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options/lane_option.h"
-#include "app/records/csv_field.h"
 #include "app/records/json_text.h"
 #include "app/records/run_record.h"
 #include "renderer/base/number_text.h"
@@ -18,21 +17,15 @@ using nlohmann::ordered_json;
 
 constexpr std::array<char, 2> lane_letters{'A', 'B'};
 
-double mean_over_seeds(const VersusReport& report, std::size_t lane,
-                       double (*number)(const Measurement&)) {
-  double sum = 0.0;
-  for (const VersusSeed& seed : report.result.seeds) {
-    sum += number(seed.runs[lane].passes.back());
-  }
-  return sum / double(report.result.seeds.size());
+/// Of what a lane's runs took.
+double mean_end(const VersusReport& report, std::size_t lane, Effort effort) {
+  return mean_of(over_seeds(report.result, [&](const VersusSeed& seed) {
+    return effort_of(effort, seed.runs[lane].passes.back());
+  }));
 }
 
 double mean_effort(const VersusReport& report) {
-  double sum = 0.0;
-  for (const VersusSeed& seed : report.result.seeds) {
-    sum += seed.effort;
-  }
-  return sum / double(report.result.seeds.size());
+  return mean_of(over_seeds(report.result, [](const VersusSeed& seed) { return seed.effort; }));
 }
 
 std::string effort_text(const VersusReport& report, double effort) {
@@ -69,15 +62,11 @@ std::string energy_sentence(const VersusReport& report) {
   return text.empty() ? " Neither is seen to lose or gain light." : text;
 }
 
-}  // namespace
-
-double VersusReport::each_rate() const {
-  return sidak(1.0 - confidence, double(plan.metrics.size()) + 2.0);
-}
-
+/// The finding in a sentence: which lane is better by how much, or that no difference was seen and
+/// how large one could have been; and which of them has lost or gained light.
 std::string versus_sentence(const VersusReport& report) {
-  const Metric& row = metric(report.plan.metrics[report.metric]);
-  const Interval ratio = error_ratio(report.result, report.metric, report.each_rate());
+  const Metric& row = metric(report.plan.metrics.front());
+  const Interval ratio = error_ratio(report.result, 0, report.each_rate());
   const std::string at = effort_text(report, mean_effort(report));
   std::string text;
   if (std::isnan(ratio.mean) || !std::isfinite(ratio.high)) {
@@ -93,26 +82,28 @@ std::string versus_sentence(const VersusReport& report) {
     text = fmt::format("{} is better in {} at {}: A's is {} of B's.", a ? 'A' : 'B', row.label, at,
                        ratio_text(ratio));
   }
-  if (const auto effort = crossing(report.result, report.plan, report.metric)) {
+  if (const auto effort = crossing(report.result, report.plan, 0)) {
     text += fmt::format(" The lead changed last at {}.", effort_text(report, *effort));
   }
   return text + energy_sentence(report);
+}
+
+}  // namespace
+
+double VersusReport::each_rate() const {
+  return sidak(1.0 - confidence, double(plan.metrics.size()) + 2.0);
 }
 
 std::string versus_text(const VersusReport& report) {
   std::string text = fmt::format("{:<8} {:>9} {:>9} {:>9} {:>30} {:>12} {:>12}\n", "", "mean spp",
                                  "rays", "seconds", "energy", "bias²", "variance");
   for (std::size_t lane = 0; lane < lane_letters.size(); ++lane) {
-    const auto mean = [&](double (*number)(const Measurement&)) {
-      return mean_over_seeds(report, lane, number);
-    };
-    text += fmt::format("{:<8} {:>9.2f} {:>9.2f} {:>9.3f} {:>30} {:>12.4g} {:>12.4g}\n",
-                        std::string(1, lane_letters[lane]),
-                        mean([](const Measurement& end) { return end.mean_spp; }),
-                        mean([](const Measurement& end) { return end.mean_rays; }),
-                        mean([](const Measurement& end) { return end.record.seconds; }),
-                        percent_text(energy_of(report.result, lane, report.each_rate())),
-                        report.result.parts[lane].squared_bias, report.result.parts[lane].variance);
+    text +=
+        fmt::format("{:<8} {:>9.2f} {:>9.2f} {:>9.3f} {:>30} {:>12.4g} {:>12.4g}\n",
+                    std::string(1, lane_letters[lane]), mean_end(report, lane, Effort::mean_spp),
+                    mean_end(report, lane, Effort::rays), mean_end(report, lane, Effort::seconds),
+                    percent_text(energy_of(report.result, lane, report.each_rate())),
+                    report.result.parts[lane].squared_bias, report.result.parts[lane].variance);
   }
   text += fmt::format("\n{:<16} {:>28}\n", "metric", "A over B");
   for (std::size_t m = 0; m < report.plan.metrics.size(); ++m) {
@@ -163,21 +154,11 @@ std::string versus_csv(const VersusReport& report) {
   for (std::size_t k = 0; k < report.result.seeds.size(); ++k) {
     for (std::size_t lane = 0; lane < lane_letters.size(); ++lane) {
       const VersusRun& run = report.result.seeds[k].runs[lane];
-      const LaneSettings& settings = report.plan.lanes[lane];
       std::string head;
       for (const Measurement& pass : run.passes) {
-        head = fmt::format("{},{},{},{},{},{},{},{},{:.6f},{},{},{:.6f}",
-                           csv_field(report.run.scene->scene().name),
-                           sampler_row(report.run.settings.sampler).id,
-                           estimator(settings.estimator).id, policy(settings.policy.kind).id,
-                           sample_mode(settings.mode).id, thresholds_text(settings),
-                           report.run.settings.seed + k, pass.record.pass, pass.record.seconds,
-                           pass.record.rays, pass.record.samples, pass.mean_spp);
-        for (std::size_t m = 0; m < report.plan.metrics.size(); ++m) {
-          csv += fmt::format("{},{},{:.9g}\n", head, metric(report.plan.metrics[m]).id,
-                             pass.values[m]);
-        }
-        csv += fmt::format("{},energy_error,{:.9g}\n", head, pass.energy);
+        head = csv_measurement(report.run, report.plan.lanes[lane], report.run.settings.seed + k,
+                               pass);
+        csv += csv_metric_rows(head, report.plan.metrics, pass);
       }
       for (std::size_t m = 0; m < report.plan.metrics.size(); ++m) {
         csv += fmt::format("{},{}_at_goal,{:.9g}\n", head, metric(report.plan.metrics[m]).id,

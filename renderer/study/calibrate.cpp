@@ -98,20 +98,29 @@ class Search {
     best_.capped = capped_pixels(experiment_.lane());
   }
 
-  /// Runs with a factor and says how many times the budget it takes; nothing if stopped.
-  std::optional<double> spending_at(double factor) {
-    const RunPlan planned = plan(factor);
-    const auto measured = experiment_.run(planned, stop_);
+  /// The end of a run; nothing if stopped.
+  std::optional<Measurement> end_of(const RunPlan& planned) {
+    auto measured = experiment_.run(planned, stop_);
     if (!measured) {
       return std::nullopt;
     }
     ++best_.runs;
-    const Measurement& result = measured->back();
-    const double spent = spending(budget_, result);
+    return std::move(measured->back());
+  }
+
+  /// Runs with a factor and says how many times the budget it takes; nothing if stopped.
+  std::optional<double> spending_at(double factor) {
+    const RunPlan planned = plan(factor);
+    const auto result = end_of(planned);
+    if (!result) {
+      return std::nullopt;
+    }
+    const double spent = spending(budget_, *result);
     // One that was cut short is on the far side, and no answer.
-    const bool whole = result.record.pass == budget_.passes || experiment_.lane().plan().total == 0;
+    const bool whole =
+        result->record.pass == budget_.passes || experiment_.lane().plan().total == 0;
     if (whole && nearer(spent)) {
-      keep(planned.settings, factor, result, spent);
+      keep(planned.settings, factor, *result, spent);
     }
     return spent;
   }
@@ -121,16 +130,14 @@ class Search {
     std::optional<ScannedRun> kept;
     const auto run = [&](double factor) -> std::optional<ScannedRun> {
       const RunPlan planned = plan(factor);
-      const auto measured = experiment_.run(planned, stop_);
-      if (!measured) {
+      const auto result = end_of(planned);
+      if (!result) {
         return std::nullopt;
       }
-      ++best_.runs;
-      const Measurement& result = measured->back();
-      const ScannedRun scanned{factor, spending(budget_, result), cost_of(result.record)};
+      const ScannedRun scanned{factor, spending(budget_, *result), cost_of(result->record)};
       if (!kept || scanned.is_better_than(*kept)) {
         kept = scanned;
-        keep(planned.settings, factor, result, scanned.quality);
+        keep(planned.settings, factor, *result, scanned.quality);
       }
       return scanned;
     };

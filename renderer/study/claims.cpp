@@ -157,8 +157,9 @@ class ClaimLab {
     }
     run.firefly = watch.response();
     run.seconds = lane().history().back().seconds;
-    run.relmse = error(MetricId::relmse);
-    run.flip = error(MetricId::flip);
+    const RadianceImage picture = lane().film().image();
+    run.relmse = error(MetricId::relmse, picture);
+    run.flip = error(MetricId::flip, picture);
     measure_regions(lane(), regions_, pixels, run);
     return true;
   }
@@ -178,17 +179,17 @@ class ClaimLab {
     const bool ended = run_lab(lab_, stop_, [&] {
       const double seconds = lane().history().back().seconds;
       first = before > 0.0 ? first : seconds;
-      relmse.push_back({seconds, error(MetricId::relmse)});
+      RadianceImage picture = lane().film().image();
+      relmse.push_back({seconds, error(MetricId::relmse, picture)});
       // FLIP takes longer than a pass: only on both sides of where it is asked for.
       const bool is_asked = std::ranges::any_of(seed.runs, [&](const ClaimRun& run) {
         return run.seconds > before && run.seconds <= seconds;
       });
-      RadianceImage picture = lane().film().image();
       if (is_asked && before > 0.0) {
-        flip.push_back({before, metric(MetricId::flip).compute(picture_before, *world_.reference)});
+        flip.push_back({before, error(MetricId::flip, picture_before)});
       }
       if (is_asked) {
-        flip.push_back({seconds, error(MetricId::flip)});
+        flip.push_back({seconds, error(MetricId::flip, picture)});
       }
       picture_before = std::move(picture);
       before = seconds;
@@ -211,8 +212,8 @@ class ClaimLab {
   bool partial() const { return lab_.partial(); }
 
  private:
-  double error(MetricId id) const {
-    return metric(id).compute(lane().film().image(), *world_.reference);
+  double error(MetricId id, const RadianceImage& picture) const {
+    return metric(id).compute(picture, *world_.reference);
   }
 
   const SampleWorld& world_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "renderer/measure/error_curve.h"
@@ -156,23 +157,25 @@ std::optional<VersusResult> run_versus(
   return result;
 }
 
+std::vector<double> over_seeds(const VersusResult& result,
+                               const std::function<double(const VersusSeed&)>& number) {
+  std::vector<double> numbers;
+  numbers.reserve(result.seeds.size());
+  std::ranges::transform(result.seeds, std::back_inserter(numbers), number);
+  return numbers;
+}
+
 Interval error_ratio(const VersusResult& result, std::size_t metric, double p) {
-  std::vector<double> logarithms;
-  logarithms.reserve(result.seeds.size());
-  for (const VersusSeed& seed : result.seeds) {
-    logarithms.push_back(std::log(seed.runs[0].errors[metric] / seed.runs[1].errors[metric]));
-  }
-  const Interval interval = mean_interval(logarithms, p);
+  const auto logarithm = [&](const VersusSeed& seed) {
+    return std::log(seed.runs[0].errors[metric] / seed.runs[1].errors[metric]);
+  };
+  const Interval interval = mean_interval(over_seeds(result, logarithm), p);
   return {std::exp(interval.mean), std::exp(interval.low), std::exp(interval.high)};
 }
 
 Interval energy_of(const VersusResult& result, std::size_t lane, double p) {
-  std::vector<double> energies;
-  energies.reserve(result.seeds.size());
-  for (const VersusSeed& seed : result.seeds) {
-    energies.push_back(seed.runs[lane].energy);
-  }
-  return mean_interval(energies, p);
+  return mean_interval(
+      over_seeds(result, [&](const VersusSeed& seed) { return seed.runs[lane].energy; }), p);
 }
 
 std::optional<double> crossing(const VersusResult& result, const VersusPlan& plan,

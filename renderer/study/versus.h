@@ -62,6 +62,10 @@ std::optional<VersusResult> run_versus(
     const SampleWorld& world, const VersusPlan& plan, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress);
 
+/// What each seed says.
+std::vector<double> over_seeds(const VersusResult& result,
+                               const std::function<double(const VersusSeed&)>& number);
+
 /// The first lane's error over the second's, of one of the plan's metrics: geometric mean over the
 /// seeds with its interval at confidence 1 − p.
 Interval error_ratio(const VersusResult& result, std::size_t metric, double p);

@@ -28,6 +28,13 @@ CommonBudget spp_budget(double spp) {
   return budget;
 }
 
+CommonBudget error_budget(double relmse) {
+  CommonBudget budget;
+  budget.passes = passes;
+  budget.error = ErrorTarget{MetricId::relmse, relmse};
+  return budget;
+}
+
 EqualiseStatus equalised(EqualiseTask& task, const EqualiseRequest& request) {
   const std::uint64_t number = task.submit(request);
   auto latest = task.latest();
@@ -80,10 +87,7 @@ TEST(EqualiseTaskThreads, SaysWhichLaneCannotAndWhy) {
 
 TEST(EqualiseTaskThreads, AnErrorNeedsAReference) {
   EqualiseTask task(equalise_work());
-  CommonBudget budget;
-  budget.passes = passes;
-  budget.error = ErrorTarget{MetricId::relmse, 0.1};
-  EqualiseRequest request = request_for(budget);
+  EqualiseRequest request = request_for(error_budget(0.1));
   EXPECT_NE(equalised(task, request).error, "");
   request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
   const EqualiseStatus status = equalised(task, request);
@@ -93,10 +97,7 @@ TEST(EqualiseTaskThreads, AnErrorNeedsAReference) {
 
 TEST(EqualiseTaskThreads, ALaneThatIsBetterThanAskedIsSaidSo) {
   EqualiseTask task(equalise_work());
-  CommonBudget budget;
-  budget.passes = passes;
-  budget.error = ErrorTarget{MetricId::relmse, 1e6};
-  EqualiseRequest request = request_for(budget);
+  EqualiseRequest request = request_for(error_budget(1e6));
   request.reference = std::make_shared<const RadianceImage>(width, height, glm::vec3(0.3f));
   const EqualiseStatus status = equalised(task, request);
   ASSERT_EQ(status.calibrations.size(), 4u);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/adaptive/effort.h"
+#include "renderer/measure/energy.h"
 #include "renderer/measure/metrics.h"
 #include "ui/widgets/imgui_compat.h"
 #include "ui/widgets/widgets.h"
@@ -77,10 +78,6 @@ std::vector<const Metric*> metrics_by_interest(MetricId chosen) {
 
 std::string seconds_text(double seconds) {
   return seconds < 0.1 ? fmt::format("{:.1f} ms", 1e3 * seconds) : fmt::format("{:.2f} s", seconds);
-}
-
-std::string energy_text(double energy) {
-  return std::isnan(energy) ? "–" : fmt::format("{:+.2f} %", 100.0 * energy);
 }
 
 std::string all_metrics_text(const LabFrame& frame, const TableRow& line) {
