@@ -19,8 +19,8 @@
 #include "renderer/files/staged_files.h"
 #include "renderer/measure/energy.h"
 #include "renderer/measure/left_out.h"
-#include "renderer/measure/noise_floors.h"
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/noise_floors.h"
+#include "renderer/measure/reference/reference.h"
 #include "ui/paper/error_figure.h"
 
 namespace quartet {

@@ -15,7 +15,7 @@
 #include "app/window/imgui_screen.h"
 #include "app/window/lab_driver.h"
 #include "app/window/window.h"
-#include "renderer/measure/reference_cache.h"
+#include "renderer/measure/reference/reference_cache.h"
 
 namespace quartet {
 namespace {

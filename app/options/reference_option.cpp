@@ -16,7 +16,7 @@
 #include "renderer/base/stopwatch.h"
 #include "renderer/files/exr.h"
 #include "renderer/files/staged_files.h"
-#include "renderer/measure/reference_cache.h"
+#include "renderer/measure/reference/reference_cache.h"
 
 namespace quartet {
 namespace {

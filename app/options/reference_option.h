@@ -10,8 +10,8 @@
 #include <string>
 
 #include "app/options/run_options.h"
-#include "renderer/measure/reference.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference.h"
+#include "renderer/measure/reference/reference_render.h"
 
 namespace quartet {
 

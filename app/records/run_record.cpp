@@ -18,7 +18,7 @@
 #include "renderer/base/version.h"
 #include "renderer/measure/energy.h"
 #include "renderer/measure/metrics.h"
-#include "renderer/measure/noise_floors.h"
+#include "renderer/measure/reference/noise_floors.h"
 #include "renderer/trace/store/sample_store.h"
 #include "renderer/view/views.h"
 

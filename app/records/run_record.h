@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "app/options/run_options.h"
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "renderer/session/snapshot.h"
 #include "renderer/study/experiment.h"
 

@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <string>
 
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "renderer/session/snapshot.h"
 #include "renderer/view/views.h"
 #include "ui/window/lab_state.h"

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "renderer/measure/noise_floors.h"
 #include "renderer/measure/quality.h"
+#include "renderer/measure/reference/noise_floors.h"
 
 namespace quartet {
 namespace {

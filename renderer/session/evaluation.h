@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "renderer/session/background_task.h"
 #include "renderer/session/snapshot.h"
 

@@ -13,8 +13,8 @@
 #include "renderer/base/cancel.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/files/staged_files.h"
-#include "renderer/measure/reference_cache.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_cache.h"
+#include "renderer/measure/reference/reference_render.h"
 
 namespace quartet {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "renderer/session/background_task.h"
 
 namespace quartet {

@@ -9,7 +9,7 @@
 #include "renderer/files/exr.h"
 #include "renderer/files/png.h"
 #include "renderer/measure/left_out.h"
-#include "renderer/measure/reference_sums.h"
+#include "renderer/measure/reference/reference_sums.h"
 #include "tests/app/program.h"
 #include "tests/files/temp_folder.h"
 

@@ -7,8 +7,8 @@
 
 #include "renderer/files/exr.h"
 #include "renderer/files/staged_files.h"
-#include "renderer/measure/reference_cache.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_cache.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/app/program.h"
 #include "tests/files/temp_folder.h"

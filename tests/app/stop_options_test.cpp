@@ -7,7 +7,7 @@
 
 #include "renderer/files/exr.h"
 #include "renderer/files/png.h"
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "tests/app/program.h"
 #include "tests/files/temp_folder.h"
 

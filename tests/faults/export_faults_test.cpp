@@ -14,7 +14,7 @@
 #include "renderer/files/exr.h"
 #include "renderer/files/file_target.h"
 #include "renderer/files/png.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/faults/fault_cases.h"
 #include "ui/paper/chart_figure.h"

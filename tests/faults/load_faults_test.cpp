@@ -7,7 +7,7 @@
 #include "renderer/files/exr.h"
 #include "renderer/files/picture.h"
 #include "renderer/files/png.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/scene_hash.h"
 #include "tests/faults/fault_cases.h"

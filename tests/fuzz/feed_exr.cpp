@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "renderer/files/exr.h"
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "tests/fuzz/feed.h"
 #include "tests/fuzz/mesh_promises.h"
 #include "tests/fuzz/picture_promises.h"

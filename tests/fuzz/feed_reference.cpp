@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "renderer/measure/reference_render.h"
-#include "renderer/measure/reference_sums.h"
+#include "renderer/measure/reference/reference_render.h"
+#include "renderer/measure/reference/reference_sums.h"
 #include "tests/fuzz/feed.h"
 #include "tests/fuzz/mesh_promises.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/measure/possible_truths.h"
+#include "renderer/measure/reference/possible_truths.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "renderer/measure/metrics.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 
 namespace quartet {
 namespace {

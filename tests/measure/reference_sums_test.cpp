@@ -1,4 +1,4 @@
-#include "renderer/measure/reference_sums.h"
+#include "renderer/measure/reference/reference_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/files/temp_folder.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -8,7 +8,7 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/files/exr.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/files/temp_folder.h"
 

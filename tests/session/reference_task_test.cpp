@@ -5,8 +5,8 @@
 #include <atomic>
 #include <fstream>
 
-#include "renderer/measure/reference_cache.h"
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_cache.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/files/temp_folder.h"
 #include "tests/wait_until.h"

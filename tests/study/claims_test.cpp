@@ -6,7 +6,7 @@
 #include <memory>
 #include <numeric>
 
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/study/claim_data.h"
 #include "tests/trace/statistics.h"

@@ -7,7 +7,7 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/base/parallel.h"
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/study/calibrate.h"
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 #include "renderer/scene/synthetic.h"
 
 namespace quartet {

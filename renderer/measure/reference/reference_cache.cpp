@@ -1,4 +1,4 @@
-#include "renderer/measure/reference_cache.h"
+#include "renderer/measure/reference/reference_cache.h"
 
 #include <fmt/format.h>
 

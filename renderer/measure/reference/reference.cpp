@@ -1,4 +1,4 @@
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "renderer/files/exr.h"
 #include "renderer/files/picture.h"
 #include "renderer/measure/left_out.h"
-#include "renderer/measure/noise_floors.h"
-#include "renderer/measure/reference_sums.h"
+#include "renderer/measure/reference/noise_floors.h"
+#include "renderer/measure/reference/reference_sums.h"
 
 namespace quartet {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "renderer/measure/reference_sums.h"
+#include "renderer/measure/reference/reference_sums.h"
 #include "renderer/trace/store/sample_store.h"
 
 namespace quartet {

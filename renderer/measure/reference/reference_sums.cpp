@@ -1,4 +1,4 @@
-#include "renderer/measure/reference_sums.h"
+#include "renderer/measure/reference/reference_sums.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "renderer/base/version.h"
-#include "renderer/measure/noise_floors.h"
+#include "renderer/measure/reference/noise_floors.h"
 #include "renderer/scene/synthetic.h"
 
 namespace quartet {

@@ -1,4 +1,4 @@
-#include "renderer/measure/possible_truths.h"
+#include "renderer/measure/reference/possible_truths.h"
 
 #include <algorithm>
 #include <cmath>

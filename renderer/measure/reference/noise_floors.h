@@ -3,7 +3,7 @@
 #include <array>
 #include <map>
 
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 
 namespace quartet {
 

@@ -1,4 +1,4 @@
-#include "renderer/measure/reference_render.h"
+#include "renderer/measure/reference/reference_render.h"
 
 #include <fmt/format.h>
 

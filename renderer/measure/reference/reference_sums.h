@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "renderer/files/exr.h"
-#include "renderer/measure/reference.h"
+#include "renderer/measure/reference/reference.h"
 
 namespace quartet {
 

@@ -1,9 +1,9 @@
-#include "renderer/measure/noise_floors.h"
+#include "renderer/measure/reference/noise_floors.h"
 
 #include <limits>
 
 #include "renderer/measure/left_out.h"
-#include "renderer/measure/possible_truths.h"
+#include "renderer/measure/reference/possible_truths.h"
 
 namespace quartet {
 
