@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/files/staged_files.h"
-#include "renderer/study/stability/cell_verdict.h"
+#include "renderer/study/stability/stability_summary.h"
 
 namespace quartet {
 

@@ -205,6 +205,10 @@ double power_of_scale(EstimatorId id) {
     case EstimatorId::variance:
     case EstimatorId::oracle:
       return 2.0;
+    case EstimatorId::oracle_expected:
+    case EstimatorId::lottery:
+    case EstimatorId::endless:
+      break;  // controls are not walked
   }
   return -1.0;
 }

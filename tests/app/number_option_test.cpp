@@ -120,7 +120,7 @@ TEST(NumberOption, EveryOneOfEveryCommandRefusesWhatIsOutOfItsRange) {
   }
   // Where the help cannot be read, nothing would be tried.
   EXPECT_GE(count["render"], 13);
-  EXPECT_GE(count["stability"], 6);
+  EXPECT_GE(count["stability"], 5);
   EXPECT_EQ(count["trace"], 5);
   EXPECT_EQ(count[""], 1);
 }

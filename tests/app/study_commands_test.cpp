@@ -124,13 +124,13 @@ TEST_F(StudyCommands, WrongUsageIsOneLine) {
       expect_usage_error(bias(with(out, {option, value})), option);
     }
     expect_usage_error(bias(with(out, {"--lane", std::string("kl:") + value})), "--lane");
-    for (const char* option : {"--seeds", "--spp", "--target", "--truth-spp", "--confidence"}) {
+    for (const char* option : {"--seeds", "--spp", "--truth-spp", "--confidence"}) {
       expect_usage_error(stability(with(out, {option, value})), option);
     }
   }
   expect_usage_error(bias(with(out, {"--estimators", "oracle"})), "bias is measured without one");
   expect_usage_error(bias(with(out, {"--seed", "18446744073709551615"})), "--seed");
-  expect_usage_error(stability(with(out, {"--policy", "vote"})), "no pixel is ever done");
+  expect_usage_error(stability(with(out, {"--policy", "vote"})), "none meets the budget");
   expect_usage_error(stability(with(out, {"--policy", "none"})), "there are: vote");
   expect_usage_error({"stability", "--cases", "none", "--out", path("out")}, "there are: black");
   expect_usage_error({"stability", "--estimators", "oracle", "--out", path("out")},

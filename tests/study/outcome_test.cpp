@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "renderer/adaptive/lab.h"
+#include "renderer/study/stability/uniform_run.h"
 
 // A lane made by hand: the oracle sees which pixels are to be done, the truth says which are
 // wrong, and every sample of a pixel is the same but for two that no film takes.
@@ -17,7 +19,7 @@ constexpr int made_width = 6;
 constexpr int made_height = 2;
 constexpr std::size_t made_pixels = std::size_t(made_width) * made_height;
 constexpr PixelRegion made_region{1, 0, 6, 2};  // all but the first column
-constexpr double made_target = 0.1;
+constexpr double made_limit = 0.025;            // wrong: a squared error above 0.1
 
 /// A pixel shows 1; it is done if the oracle's reference says so too, else it is off by 1. The
 /// truth of a wrong one is 2.
@@ -100,6 +102,18 @@ Truth made_truth() {
   return truth;
 }
 
+/// With the eight samples that it ends with, a pixel that is not done and right is expected to have
+/// less than the limit, from four on even; a wrong one is expected to be wrong. Of the two that are
+/// done and right in the upper row, the first is expected to be wrong.
+Judgement made_judgement() {
+  auto expected = std::make_shared<RadianceImage>(made_width, made_height);
+  for (std::size_t i = 0; i < made_pixels; ++i) {
+    const bool bad = made[i].wrong || i == 1;
+    expected->pixels()[i] = glm::vec3(bad ? 8.0f : 0.0625f);
+  }
+  return {made_truth(), expected, made_limit, made_region};
+}
+
 /// Knows the truth of every pixel without noise.
 Audit made_audit() {
   const SampleSource hidden = [](int x, int y, std::uint32_t, std::span<glm::vec3> radiance) {
@@ -109,8 +123,9 @@ Audit made_audit() {
 }
 
 /// The lane and its outcome, once it wants no more.
-Outcome run_to_end(Lab& lab, const Truth& truth) {
-  Observation observation(truth, made_region, made_target);
+Outcome run_to_end(Lab& lab) {
+  const Judgement judgement = made_judgement();
+  Observation observation(judgement);
   while (lab.lanes()[0].plan().total > 0) {
     observation.before_pass(lab.lanes()[0]);
     lab.run_pass();
@@ -120,9 +135,8 @@ Outcome run_to_end(Lab& lab, const Truth& truth) {
 }
 
 TEST(Outcome, OfALaneByHand) {
-  const Truth truth = made_truth();
   Lab lab = made_lab(made_settings());
-  const Outcome outcome = run_to_end(lab, truth);
+  const Outcome outcome = run_to_end(lab);
   const Lane& lane = lab.lanes()[0];
   ASSERT_EQ(lane.pass(), 3u);
   const std::vector<std::uint32_t> taken(lane.taken().begin(), lane.taken().end());
@@ -144,10 +158,11 @@ TEST(Outcome, OfALaneByHand) {
   // Of the region.
   EXPECT_DOUBLE_EQ(outcome.done, 0.4);
   EXPECT_DOUBLE_EQ(outcome.missed, 0.25);
+  EXPECT_DOUBLE_EQ(outcome.too_early, 0.5);
   EXPECT_DOUBLE_EQ(outcome.never_done, 0.2);
   EXPECT_DOUBLE_EQ(outcome.never_done_cost, 16.0 / 72.0);
-  EXPECT_EQ(outcome.audit.done, 4.0);
-  EXPECT_EQ(outcome.audit.wrong, 1.0);
+  EXPECT_EQ(outcome.audit.size(), 4u);
+  EXPECT_EQ(std::ranges::count(outcome.audit, true, &Audit::Look::wrong), 1);
   // Two passes after the first gave two samples each to six pixels, two of which are not
   // wrong.
   EXPECT_DOUBLE_EQ(outcome.wasted, 1.0 / 3.0);
@@ -156,9 +171,8 @@ TEST(Outcome, OfALaneByHand) {
 }
 
 TEST(Outcome, OfALaneWithAPilotCountsItsSamplesToo) {
-  const Truth truth = made_truth();
   Lab lab = made_lab(made_settings(SampleMode::unbiased));
-  const Outcome outcome = run_to_end(lab, truth);
+  const Outcome outcome = run_to_end(lab);
   EXPECT_DOUBLE_EQ(outcome.mean_spp, 12.0);
   EXPECT_DOUBLE_EQ(outcome.region_spp, 6.4);
   EXPECT_DOUBLE_EQ(outcome.never_done_cost, 16.0 / 144.0);
@@ -186,6 +200,44 @@ TEST(Outcome, PixelStatesFollowErrorsSamplesAndTheMaximum) {
   EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::refining);
   plain.run_pass();
   EXPECT_EQ(pixel_states(plain.lanes()[0])[0], PixelState::at_maximum);
+}
+
+// Uniform sampling measured at 2 and at 6 samples; a lane between them, and one past the end.
+TEST(Outcome, StandsBesideUniformSamplingOfTheSameEffort) {
+  const UniformRun uniform(
+      std::vector<UniformRun::Point>{{2.0, 20.0, 0.5, -0.25}, {6.0, 40.0, 0.25, 0.125}});
+  Truth truth;
+  Outcome outcome;
+  outcome.mean_spp = 5.0;
+  outcome.mean_rays = 25.0;
+  outcome.regions = 0.625;
+  outcome.region_energy = -0.5;
+  set_beside(outcome, uniform, truth);
+  // Three quarters of the way in samples, one quarter in rays.
+  EXPECT_DOUBLE_EQ(outcome.over_uniform, 0.625 / 0.3125);
+  EXPECT_DOUBLE_EQ(outcome.over_uniform_rays, 0.625 / 0.4375);
+  EXPECT_DOUBLE_EQ(outcome.off, -0.5) << "of an exact truth";
+  truth.spp = 512;
+  set_beside(outcome, uniform, truth);
+  EXPECT_DOUBLE_EQ(outcome.off, -0.5 - 0.125) << "less that of all uniform samples";
+  outcome.mean_spp = 6.5;
+  set_beside(outcome, uniform, truth);
+  EXPECT_TRUE(std::isnan(outcome.over_uniform)) << "nothing is extrapolated";
+  outcome.mean_spp = 1.0;
+  set_beside(outcome, uniform, truth);
+  EXPECT_TRUE(std::isnan(outcome.over_uniform));
+}
+
+TEST(Outcome, UniformSamplingIsMeasuredAtEachSample) {
+  const Truth truth = made_truth();
+  Lab lab = made_lab(made_settings());
+  const auto run = run_uniform(lab, 3, truth, made_region, {});
+  ASSERT_TRUE(run);
+  for (const double spp : {1.0, 2.0, 3.0}) {
+    EXPECT_DOUBLE_EQ(run->at(&UniformRun::Point::mean_spp, spp).mean_spp, spp);
+  }
+  EXPECT_NEAR(run->last().region_energy, 10.0 / 15.0 - 1.0, 1e-6);
+  EXPECT_TRUE(std::isnan(run->at(&UniformRun::Point::mean_spp, 3.5).regions));
 }
 
 TEST(Outcome, OfAPictureAlone) {

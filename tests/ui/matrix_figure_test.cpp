@@ -27,7 +27,7 @@ MatrixFigure figure_of(std::size_t rows, std::size_t columns) {
   for (const char* title : {"first", "second"}) {
     MatrixFigure::Panel panel{title, {}};
     for (std::size_t i = 0; i < rows * columns; ++i) {
-      panel.cells.push_back({"−12 %", {std::uint8_t(10 + 7 * i), 100, 50}});
+      panel.cells.push_back({"−12 %", {}, {std::uint8_t(10 + 7 * i), 100, 50}});
     }
     figure.panels.push_back(panel);
   }

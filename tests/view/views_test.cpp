@@ -155,8 +155,9 @@ TEST(Views, StopStatesAreThoseOfAStudy) {
   Truth truth;
   truth.image = std::make_shared<const RadianceImage>(side, side, glm::vec3(1.0f));
   const Audit audit([](int, int, std::uint32_t, std::span<glm::vec3>) {}, side, side, 0.0, 2, 0);
-  const Outcome outcome =
-      Observation(truth, {0, 0, side, side}, 1.0).outcome(lane, lane.taken(), audit);
+  const Judgement judgement{
+      truth, std::make_shared<RadianceImage>(side, side, glm::vec3(1.0f)), 1.0, {0, 0, side, side}};
+  const Outcome outcome = Observation(judgement).outcome(lane, lane.taken(), audit);
   EXPECT_EQ(outcome.done, 1.0);
   EXPECT_EQ(outcome.never_done, 0.0);
 

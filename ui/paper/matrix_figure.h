@@ -12,8 +12,9 @@ namespace quartet {
 /// stand below each other. Text is UTF-8.
 struct MatrixFigure {
   struct Cell {
-    std::string text;  ///< short: a number with its unit
-    Rgba8 color;       ///< dark enough for white text
+    std::string text;                ///< short: a number with its unit
+    std::vector<std::string> small;  ///< lines below it
+    Rgba8 color;                     ///< dark enough for white text
   };
   struct Panel {
     std::string title;

@@ -1,5 +1,6 @@
 #include "renderer/adaptive/estimators/estimator.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "renderer/adaptive/estimators/estimator_rows.h"
@@ -38,19 +39,31 @@ const Estimator* row_of_estimator(EstimatorId key) {
       return &uniform_estimator;
     case EstimatorId::uniform_clamp:
       return &uniform_clamp_estimator;
+    case EstimatorId::oracle_expected:
+      return &oracle_expected_estimator;
+    case EstimatorId::lottery:
+      return &lottery_estimator;
+    case EstimatorId::endless:
+      return &endless_estimator;
   }
   return nullptr;
+}
+
+std::span<const Estimator> all_rows() {
+  static const std::vector<Estimator> table = table_of(row_of_estimator);
+  return table;
 }
 
 }  // namespace
 
 std::span<const Estimator> estimators() {
-  static const std::vector<Estimator> table = table_of(row_of_estimator);
-  return table;
+  static const std::size_t offered =
+      std::size_t(std::ranges::count(all_rows(), false, &Estimator::control));
+  return all_rows().first(offered);
 }
 
 const Estimator& estimator(EstimatorId key) {
-  return row_of(estimators(), key);
+  return row_of(all_rows(), key);
 }
 
 const Estimator& find_estimator(std::string_view id) {

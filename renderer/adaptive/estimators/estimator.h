@@ -23,6 +23,10 @@ enum class EstimatorId {
   oracle,
   uniform,
   uniform_clamp,
+  // Controls, see Estimator::control.
+  oracle_expected,
+  lottery,
+  endless,
 };
 
 enum class PolicyId;  // policy.h
@@ -71,11 +75,15 @@ struct Estimator {
   bool judges_variance = false;
   /// What its source takes a pixel's samples to be.
   std::string_view assumes = "any samples: it looks at the means of pixels";
+  /// Stands beside the others in a study, to show what the study can tell apart; nobody would
+  /// choose it to make a picture.
+  bool control = false;
 };
 
+/// What is offered: all but the controls.
 std::span<const Estimator> estimators();
 const Estimator& estimator(EstimatorId key);
-/// Throws std::invalid_argument that lists the legal ids.
+/// Of those that are offered. Throws std::invalid_argument that lists the legal ids.
 const Estimator& find_estimator(std::string_view id);
 
 }  // namespace quartet

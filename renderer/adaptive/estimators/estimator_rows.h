@@ -20,6 +20,9 @@ extern const Estimator rigau_hellinger_estimator;
 extern const Estimator oracle_estimator;
 extern const Estimator uniform_estimator;
 extern const Estimator uniform_clamp_estimator;
+extern const Estimator oracle_expected_estimator;
+extern const Estimator lottery_estimator;
+extern const Estimator endless_estimator;
 
 inline constexpr std::string_view rigau_2003 =
     "Rigau, Feixas and Sbert 2003, Refinement Criteria Based on f-Divergences";

@@ -19,6 +19,15 @@ void estimate_oracle(const EstimatorInput& input, std::span<float> error) {
   });
 }
 
+/// What one sample's squared error is in expectation, which stands in the place of the reference,
+/// over the number of samples. It looks at no sample, so that nothing is stopped by luck.
+void expect_oracle(const EstimatorInput& input, std::span<float> error) {
+  assert(input.reference.size() == input.film.size());
+  each_pixel(input, error, 1, [&](std::size_t i, std::uint32_t n) {
+    return double(input.reference[i].x) / double(n);
+  });
+}
+
 }  // namespace
 
 constexpr Estimator oracle_estimator{
@@ -33,5 +42,19 @@ constexpr Estimator oracle_estimator{
     .estimate = estimate_oracle,
     .default_policy = PolicyId::batch,
     .needs_reference = true};
+
+constexpr Estimator oracle_expected_estimator{
+    .key = EstimatorId::oracle_expected,
+    .id = "oracle",
+    .label = "oracle of expected errors",
+    .unit = "",
+    .source = "the squared error that so many samples have in expectation",
+    .threshold_source = "a tenth of what is true",
+    .channels = 1,
+    .default_thresholds = {1e-2f, 0.0f, 0.0f},
+    .estimate = expect_oracle,
+    .default_policy = PolicyId::batch,
+    .needs_reference = true,
+    .control = true};
 
 }  // namespace quartet

@@ -1,6 +1,8 @@
 #include "renderer/study/stability/audit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "renderer/base/parallel.h"
 #include "renderer/trace/store/running_mean.h"
@@ -51,11 +53,11 @@ Audit::Audit(const SampleSource& hidden, int width, int height, double share, st
   });
 }
 
-Audit::Finding Audit::check(std::span<const PixelState> states,
-                            const std::array<std::span<const float>, 3>& means,
-                            double target) const {
+std::vector<Audit::Look> Audit::check(std::span<const PixelState> states,
+                                      const std::array<std::span<const float>, 3>& means,
+                                      double target) const {
   constexpr double relative_floor = 0.01;  // as in relmse
-  Finding finding;
+  std::vector<Look> looks;
   for (const Pixel& audited : pixels_) {
     if (states[audited.pixel] != PixelState::done) {
       continue;
@@ -66,10 +68,40 @@ Audit::Finding Audit::check(std::span<const PixelState> states,
       error += (off * off - audited.variance_of_mean[c]) /
                (audited.mean[c] * audited.mean[c] + relative_floor) / 3.0;
     }
-    finding.done += 1.0;
-    finding.wrong += error > target ? 1.0 : 0.0;
+    looks.push_back({audited.pixel, error > target});
   }
-  return finding;
+  return looks;
+}
+
+Interval wrong_share_interval(std::span<const Audit::Look> looks, double p) {
+  struct Cluster {
+    double looks = 0.0;
+    double wrong = 0.0;
+  };
+  std::map<std::size_t, Cluster> pixels;
+  Cluster all;
+  for (const Audit::Look& look : looks) {
+    for (Cluster* cluster : {&pixels[look.pixel], &all}) {
+      cluster->looks += 1.0;
+      cluster->wrong += look.wrong ? 1.0 : 0.0;
+    }
+  }
+  if (pixels.empty()) {
+    return share_interval(0.0, 0.0, p);
+  }
+  const auto count = double(pixels.size());
+  const double share = all.wrong / all.looks;
+  double squares = 0.0;
+  for (const auto& [pixel, cluster] : pixels) {
+    const double off = cluster.wrong - share * cluster.looks;
+    squares += off * off;
+  }
+  const double variance = squares / (all.looks * all.looks) * count / std::max(count - 1.0, 1.0);
+  // Where all looks say the same, nothing is known of how runs at one pixel are related: then they
+  // count as one.
+  const double independent =
+      variance > 0.0 ? std::min(share * (1.0 - share) / variance, all.looks) : count;
+  return share_interval(share * independent, independent, p);
 }
 
 }  // namespace quartet

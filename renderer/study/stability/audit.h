@@ -29,18 +29,25 @@ class Audit {
 
   std::span<const Pixel> pixels() const { return pixels_; }
 
-  /// Pixels that were audited and are done, and how many of them are wrong.
-  struct Finding {
-    double done = 0.0;
-    double wrong = 0.0;
+  /// A pixel that is done, and whether it is wrong nevertheless.
+  struct Look {
+    std::size_t pixel;
+    bool wrong;
   };
-  /// A pixel is wrong if its squared relative error, as squared_errors() has it and less what the
-  /// audit's own noise adds to it, is above `target`. `means` are red, green and blue.
-  Finding check(std::span<const PixelState> states,
-                const std::array<std::span<const float>, 3>& means, double target) const;
+  /// Of all pixels that are audited and done. One is wrong if its squared relative error, as
+  /// squared_errors() has it and less what the audit's own noise adds to it, is above `target`.
+  /// `means` are red, green and blue.
+  std::vector<Look> check(std::span<const PixelState> states,
+                          const std::array<std::span<const float>, 3>& means, double target) const;
 
  private:
   std::vector<Pixel> pixels_;
 };
+
+/// The share of wrong ones in looks at the same pixels by several runs, as an interval at
+/// confidence 1 − p. Pixels are what was drawn at random, each with all its runs (Cochran 1977,
+/// Sampling Techniques, section 9A.3 on clusters of unequal size): so many independent looks as
+/// would give the share that variance go into Wilson's interval. Of no looks: 0 to 1.
+Interval wrong_share_interval(std::span<const Audit::Look> looks, double p);
 
 }  // namespace quartet

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "renderer/adaptive/effort.h"
+#include "renderer/measure/metrics.h"
+#include "renderer/study/stability/uniform_run.h"
 
 namespace quartet {
 namespace {
@@ -26,6 +28,11 @@ constexpr std::array columns{
     OutcomeColumn{"region_spp", "samples", &Outcome::region_spp},
     OutcomeColumn{"rejected", "", &Outcome::rejected},
     OutcomeColumn{"mean_rays", "rays", &Outcome::mean_rays},
+    OutcomeColumn{"relmse_regions", "", &Outcome::regions},
+    OutcomeColumn{"over_uniform", "", &Outcome::over_uniform},
+    OutcomeColumn{"over_uniform_rays", "", &Outcome::over_uniform_rays},
+    OutcomeColumn{"too_early", "", &Outcome::too_early},
+    OutcomeColumn{"off", "", &Outcome::off},
 };
 
 template <class Visit>
@@ -37,21 +44,13 @@ void for_each_pixel(const PixelRegion& region, int width, const Visit& visit) {
   }
 }
 
-/// Luminance of a region of the picture over that of the truth, less 1; their difference where the
-/// truth is black.
-double energy_of(const RadianceImage& picture, const RadianceImage& truth,
-                 const PixelRegion& region) {
-  double shown = 0.0;
-  double right = 0.0;
-  for_each_pixel(region, picture.width(), [&](std::size_t i) {
-    shown += double(luminance(picture.pixels()[i]));
-    right += double(luminance(truth.pixels()[i]));
-  });
-  return right > 0.0 ? shown / right - 1.0 : (shown - right) / region.pixels();
-}
-
 double share(double part, double whole) {
   return whole > 0.0 ? part / whole : 0.0;
+}
+
+/// Of a pixel with so many samples.
+double expected_error(const Judgement& judgement, std::size_t pixel, std::uint32_t samples) {
+  return double(judgement.expected->pixels()[pixel].x) / double(samples);
 }
 
 double mean_of_worst(std::vector<float> errors) {
@@ -91,11 +90,23 @@ std::span<const OutcomeColumn> outcome_columns() {
   return columns;
 }
 
+double energy_of(const RadianceImage& picture, const RadianceImage& truth,
+                 const PixelRegion& region) {
+  double shown = 0.0;
+  double right = 0.0;
+  for_each_pixel(region, picture.width(), [&](std::size_t i) {
+    shown += double(luminance(picture.pixels()[i]));
+    right += double(luminance(truth.pixels()[i]));
+  });
+  return right > 0.0 ? shown / right - 1.0 : (shown - right) / region.pixels();
+}
+
 Outcome outcome_of(const RadianceImage& picture, const RadianceImage& truth,
                    const PixelRegion& region) {
   std::vector<float> errors = squared_errors(picture, truth);
   Outcome outcome;
   outcome.relmse = std::accumulate(errors.begin(), errors.end(), 0.0) / double(errors.size());
+  outcome.regions = metric(MetricId::relmse_regions).compute(picture, truth);
   outcome.worst = mean_of_worst(std::move(errors));
   outcome.fireflies = firefly_share(picture, truth);
   outcome.energy = energy_of(picture, truth, {0, 0, picture.width(), picture.height()});
@@ -110,19 +121,25 @@ void set_cost(Outcome& outcome, const Lane& lane) {
   outcome.seconds = last.seconds;
 }
 
-Observation::Observation(const Truth& truth, const PixelRegion& region, double target)
-    : truth_(truth), region_(region), target_(target) {
+void set_beside(Outcome& outcome, const UniformRun& uniform, const Truth& truth) {
+  const auto over = [&](const UniformRun::Point& point) {
+    return outcome.regions == point.regions ? 1.0 : outcome.regions / point.regions;
+  };
+  const UniformRun::Point same_samples = uniform.at(&UniformRun::Point::mean_spp, outcome.mean_spp);
+  outcome.over_uniform = over(same_samples);
+  outcome.over_uniform_rays = over(uniform.at(&UniformRun::Point::mean_rays, outcome.mean_rays));
+  outcome.off = outcome.region_energy - (truth.spp > 0 ? uniform.last().region_energy : 0.0);
 }
 
 void Observation::before_pass(const Lane& lane) {
   if (lane.pass() == 0 || lane.plan().total == 0) {
     return;
   }
-  const std::vector<float> errors = squared_errors(lane.film().image(), *truth_.image);
-  for (std::size_t i = 0; i < errors.size(); ++i) {
+  for (std::size_t i = 0; i < lane.taken().size(); ++i) {
     const double wanted = lane.plan().wanted[i];
+    const double expected = expected_error(judgement_, i, lane.taken()[i]);
     spent_ += wanted;
-    wasted_ += double(errors[i]) <= target_ ? wanted : 0.0;
+    wasted_ += expected <= judgement_.limit ? wanted : 0.0;
   }
 }
 
@@ -131,38 +148,43 @@ Outcome Observation::outcome(const Lane& lane, std::span<const std::uint32_t> or
   const Film& film = lane.film();
   const RadianceImage picture = film.image();
   const double all_samples = double(lane.history().back().samples);
-  Outcome outcome = outcome_of(picture, *truth_.image, region_);
+  const PixelRegion& region = judgement_.region;
+  const double wrong = wrong_over_limit * judgement_.limit;
+  Outcome outcome = outcome_of(picture, *judgement_.truth.image, region);
   set_cost(outcome, lane);
   outcome.rejected = share(double(film.total_rejected()), all_samples);
   outcome.wasted = share(wasted_, spent_);
   outcome.off_oracle = distance(lane.taken(), oracle);
 
-  const std::vector<float> errors = squared_errors(picture, *truth_.image);
+  const std::vector<float> errors = squared_errors(picture, *judgement_.truth.image);
   const std::vector<PixelState> states = pixel_states(lane);
   double done = 0.0;
   double missed = 0.0;
+  double too_early = 0.0;
   double never = 0.0;
   double never_samples = 0.0;
   double samples = 0.0;
   std::vector<PixelState> in_region(states.size(), PixelState::refining);
-  for_each_pixel(region_, film.width(), [&](std::size_t i) {
-    const bool wrong = double(errors[i]) > target_;
+  for_each_pixel(region, film.width(), [&](std::size_t i) {
+    const double expected = expected_error(judgement_, i, lane.taken()[i]);
     samples += lane.taken()[i];
     in_region[i] = states[i];
     if (states[i] == PixelState::done) {
       done += 1.0;
-      missed += wrong ? 1.0 : 0.0;
-    } else if (states[i] == PixelState::at_maximum && !wrong) {
+      missed += double(errors[i]) > wrong ? 1.0 : 0.0;
+      too_early += expected > wrong ? 1.0 : 0.0;
+    } else if (states[i] == PixelState::at_maximum && expected <= judgement_.limit) {
       never += 1.0;
       never_samples += lane.taken()[i];
     }
   });
-  outcome.done = done / region_.pixels();
+  outcome.done = done / region.pixels();
   outcome.missed = share(missed, done);
-  outcome.never_done = never / region_.pixels();
+  outcome.too_early = share(too_early, done);
+  outcome.never_done = never / region.pixels();
   outcome.never_done_cost = share(never_samples, all_samples);
-  outcome.region_spp = samples / region_.pixels();
-  outcome.audit = audit.check(in_region, {film.mean(0), film.mean(1), film.mean(2)}, target_);
+  outcome.region_spp = samples / region.pixels();
+  outcome.audit = audit.check(in_region, {film.mean(0), film.mean(1), film.mean(2)}, wrong);
   return outcome;
 }
 

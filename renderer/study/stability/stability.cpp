@@ -10,23 +10,17 @@
 #include "renderer/measure/reference/reference.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/study/calibrate.h"
+#include "renderer/study/stability/expected_error.h"
 
 namespace quartet {
 namespace {
 
 // Shares of a case's time, for the progress bar.
-constexpr double truth_share = 0.3;
+constexpr double truth_share = 0.25;
+constexpr double expected_share = 0.05;
 constexpr double tuning_share = 0.1;
 
 struct Stopped {};
-
-/// With its default thresholds.
-LaneSettings settings_of(EstimatorId id, const StabilityOptions& options) {
-  LaneSettings settings = default_settings(id);
-  settings.policy.kind = options.policy;
-  settings.max_spp = std::uint32_t(std::lround(options.spp * maximum_over_budget));
-  return settings;
-}
 
 class Study {
  public:
@@ -65,11 +59,20 @@ TrialSetup Study::prepare() {
   setup.scene = std::make_shared<const TraceScene>(open_scene(setup.failure->scene));
   setup.settings = default_settings(setup.scene->scene());
   setup.settings.sampler = sampler_for(setup.scene->scene(), options_.sampler);
-  setup.target = options_.target;
-  setup.truth = *find_truth(setup.scene, setup.settings, options_.truth, [&](double done) {
-    advance(truth_share * done);
-    return true;
-  });
+  setup.judgement.truth =
+      *find_truth(setup.scene, setup.settings, options_.truth, [&](double done) {
+        advance(truth_share * done);
+        return true;
+      });
+  const auto budget = std::uint32_t(std::lround(options_.spp));
+  std::uint32_t runs = 0;
+  setup.judgement.expected = expected_errors(
+      setup.scene, setup.settings, *setup.judgement.truth.image, budget, options_.oracle_runs, [&] {
+        advance(truth_share + expected_share * double(++runs) / double(options_.oracle_runs));
+        return true;
+      });
+  setup.judgement.region =
+      pixels_of(setup.failure->region, setup.settings.width, setup.settings.height);
   // Seeds that no trial has, and samples whose s²/n is the variance of their mean.
   RenderSettings hidden = setup.settings;
   hidden.sampler = SamplerId::independent;
@@ -77,12 +80,10 @@ TrialSetup Study::prepare() {
   setup.audit =
       std::make_shared<const Audit>(sample_source(setup.scene, hidden), hidden.width, hidden.height,
                                     options_.audit_share, options_.audit_samples, hidden.seed);
-  advance(truth_share);
-  setup.uniform = default_settings(EstimatorId::uniform);
-  setup.uniform.max_spp = std::uint32_t(std::lround(options_.spp));
-  for (const EstimatorId id : options_.estimators) {
-    setup.usual.push_back(settings_of(id, options_));
-  }
+  advance(truth_share + expected_share);
+  setup.subjects = stability_subjects(options_.estimators, options_.policy, options_.spp);
+  setup.window_passes = options_.window_passes;
+  setup.most_spp = std::uint32_t(std::lround(options_.spp * maximum_over_budget));
   tune(setup);
   return setup;
 }
@@ -95,23 +96,25 @@ void Study::tune(TrialSetup& setup) {
   lab.threads = 1;
   lab.sampler = settings.sampler;
   Experiment experiment(sample_source(setup.scene, settings), settings.width, settings.height, lab,
-                        setup.truth.image);
+                        setup.judgement.expected);
   // Every lane of the study ends by itself.
   const CommonBudget budget{.passes = std::numeric_limits<std::uint32_t>::max(),
                             .spp = options_.spp};
-  const auto tuned = [&](const LaneSettings& lane) {
-    const std::optional<Calibration> found = calibrate(experiment, lane, budget, stop_);
-    if (!found) {
-      throw Stopped();
+  for (std::size_t i = 0; i < setup.subjects.size(); ++i) {
+    LaneSettings& lane = setup.subjects[i].settings;
+    if (estimator(lane.estimator).channels > 0 && lane.estimator != EstimatorId::endless) {
+      const std::optional<Calibration> found = calibrate(experiment, lane, budget, stop_);
+      if (!found) {
+        throw Stopped();
+      }
+      lane = found->settings;
     }
-    return found->settings;
-  };
-  for (std::size_t i = 0; i < setup.usual.size(); ++i) {
-    setup.budget.push_back(tuned(setup.usual[i]));
-    advance(truth_share + tuning_share * double(i + 1) / double(setup.usual.size() + 1));
+    if (lane.estimator == EstimatorId::oracle_expected) {
+      setup.judgement.limit = double(lane.thresholds[0]);
+    }
+    advance(truth_share + expected_share +
+            tuning_share * double(i + 1) / double(setup.subjects.size()));
   }
-  setup.oracle = tuned(settings_of(EstimatorId::oracle, options_));
-  advance(truth_share + tuning_share);
 }
 
 std::vector<Trial> Study::run_seeds(const TrialSetup& setup) {
@@ -125,7 +128,8 @@ std::vector<Trial> Study::run_seeds(const TrialSetup& setup) {
       }
       of_seed[seed] = std::move(*trials);
       const double done = double(++finished) / double(options_.seeds);
-      advance(truth_share + tuning_share + (1.0 - truth_share - tuning_share) * done);
+      constexpr double before = truth_share + expected_share + tuning_share;
+      advance(before + (1.0 - before) * done);
     }
   });
   std::vector<Trial> trials;
@@ -138,8 +142,10 @@ std::vector<Trial> Study::run_seeds(const TrialSetup& setup) {
 CaseResult Study::run(std::size_t index) {
   index_ = index;
   const TrialSetup setup = prepare();
-  return {setup.failure,          setup.truth,     setup.settings.width, setup.settings.height,
-          setup.settings.sampler, run_seeds(setup)};
+  std::vector<Trial> trials = run_seeds(setup);
+  return {setup.failure,         setup.judgement.truth, setup.settings.width,
+          setup.settings.height, setup.judgement.limit, setup.settings.sampler,
+          setup.subjects,        std::move(trials)};
 }
 
 }  // namespace

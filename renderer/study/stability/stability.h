@@ -11,26 +11,26 @@ namespace quartet {
 
 struct StabilityOptions {
   std::vector<const FailureCase*> cases;
-  std::vector<EstimatorId> estimators;   ///< those with an error; an oracle runs beside them anyway
-  PolicyId policy = PolicyId::batch;     ///< one that comes to an end: not vote
+  std::vector<EstimatorId> estimators;   ///< those with an error, to be studied
+  PolicyId policy = PolicyId::batch;     ///< on the terms of the budget; one that ends: not vote
   SamplerId sampler = SamplerId::sobol;  ///< where light is traced
-  std::uint32_t seeds = 12;              ///< at least 2
+  std::uint32_t seeds = 16;              ///< at least 2
   double spp = 16.0;                     ///< the common budget, mean samples a pixel
-  double target = 0.1;                   ///< squared relative error above which a pixel is wrong
+  std::uint32_t window_passes = 15;      ///< on the terms of the window
   TruthEffort truth;
+  std::uint32_t oracle_runs = 32;  ///< that tell the oracle which errors to expect
   std::uint32_t audit_samples = 8192;
   double audit_share = 1.0 / 32.0;
 };
-
-/// The maximum that a pixel may have, in multiples of the budget.
-inline constexpr double maximum_over_budget = 8.0;
 
 /// What came of all trials of a case.
 struct CaseResult {
   const FailureCase* failure = nullptr;
   Truth truth;
   int width = 0, height = 0;
+  double limit = 0.0;                    ///< as in Judgement
   SamplerId sampler = SamplerId::sobol;  ///< of the trials
+  std::vector<Subject> subjects;         ///< with the thresholds that they had for the budget
   std::vector<Trial> trials;
 };
 

@@ -12,12 +12,19 @@ namespace {
 /// Trials of one kind in one case, by seed.
 using Trials = std::map<std::uint64_t, const Trial*>;
 
-Trials select(const CaseResult& result, EstimatorId estimator, Tuning tuning, SampleMode mode,
-              Variation variation) {
+/// What a group of trials has in common.
+struct Kind {
+  std::string_view subject;
+  Terms terms = Terms::budget;
+  SampleMode mode = SampleMode::reuse;
+  Variation variation = Variation::none;
+};
+
+Trials select(const CaseResult& result, const Kind& kind) {
   Trials trials;
   for (const Trial& trial : result.trials) {
-    if (trial.settings.estimator == estimator && trial.tuning == tuning &&
-        trial.settings.mode == mode && trial.variation == variation) {
+    if (trial.subject == kind.subject && trial.terms == kind.terms &&
+        trial.settings.mode == kind.mode && trial.variation == kind.variation) {
       trials[trial.seed] = &trial;
     }
   }
@@ -42,43 +49,12 @@ double spread_of(const std::vector<double>& values) {
   return mean > 0.0 ? std::sqrt(squares / double(values.size() - 1)) / mean : 0.0;
 }
 
-/// What the others are compared with.
-Trials uniform_trials(const CaseResult& result, Variation variation) {
-  return select(result, EstimatorId::uniform, Tuning::budget, SampleMode::reuse, variation);
-}
-
-/// Where the truth is known exactly the energy is compared with it; else with that of uniform
-/// sampling with the same seeds, which is unbiased, shares samples and so much of the noise, and,
-/// unlike a rendered truth, has a noise that is seen in the spread over seeds.
-BiasTest bias_of(const CaseResult& result, const Trials& trials, double Outcome::*energy,
-                 double p) {
-  std::vector<double> off = values_of(trials, energy);
-  if (result.truth.spp > 0) {
-    const std::vector<double> uniform = values_of(uniform_trials(result, Variation::none), energy);
-    assert(uniform.size() == off.size());
-    for (std::size_t i = 0; i < off.size(); ++i) {
-      off[i] -= uniform[i];
-    }
-  }
-  return {mean_interval(off, p), mean_p(off, 0.0)};
-}
-
-/// Ratio of error × time, which does not depend on how long either ran as long as errors fall as
-/// 1/samples: the geometric mean over seeds.
-Interval equal_time_of(const CaseResult& result, const Trials& trials, double p) {
-  const Trials uniform = uniform_trials(result, Variation::none);
-  std::vector<double> logs;
+Finding judge_trials(const Rule& rule, const Trials& trials, double p) {
+  std::vector<double> effects;
   for (const auto& [seed, trial] : trials) {
-    const Outcome& ours = trial->outcome;
-    const Outcome& theirs = uniform.at(seed)->outcome;
-    const double ratio = ours.relmse * ours.seconds / (theirs.relmse * theirs.seconds);
-    if (!(ratio > 0.0 && std::isfinite(ratio))) {
-      return {1.0, 0.0, std::numeric_limits<double>::infinity()};  // nothing to compare
-    }
-    logs.push_back(std::log(ratio));
+    effects.push_back(rule.effect(trial->outcome));
   }
-  const Interval interval = mean_interval(logs, p);
-  return {std::exp(interval.mean), std::exp(interval.low), std::exp(interval.high)};
+  return judge(rule, effects, p);
 }
 
 /// In relation to the plain experiment with the same seeds.
@@ -100,50 +76,78 @@ std::optional<Change> change_of(const Trials& plain, const Trials& varied) {
   return Change{cost / plain_cost, plain_error > 0.0 ? error / plain_error : 1.0};
 }
 
-Interval audit_of(const Trials& trials, double p, double& audited) {
-  double wrong = 0.0;
-  audited = 0.0;
+std::vector<Audit::Look> looks_of(const Trials& trials) {
+  std::vector<Audit::Look> looks;
   for (const auto& [seed, trial] : trials) {
-    wrong += trial->outcome.audit.wrong;
-    audited += trial->outcome.audit.done;
+    looks.insert(looks.end(), trial->outcome.audit.begin(), trial->outcome.audit.end());
   }
-  return share_interval(wrong, audited, p);
+  return looks;
 }
 
-Cell cell_of(const CaseResult& result, EstimatorId estimator, Tuning tuning, double p) {
-  const auto of = [&](SampleMode mode, Variation variation) {
-    return select(result, estimator, tuning, mode, variation);
+/// What cost and error become with each variation.
+void set_changes(Cell& cell, const CaseResult& result, const Trials& plain) {
+  const auto of = [&](std::string_view subject, Variation variation) {
+    return select(result, {.subject = subject, .variation = variation});
   };
-  const Trials reuse = of(SampleMode::reuse, Variation::none);
-  const Trials unbiased = of(SampleMode::unbiased, Variation::none);
-  Cell cell;
-  cell.failure = result.failure;
-  cell.tuning = tuning;
-  cell.settings = reuse.begin()->second->settings;
-  for (const OutcomeColumn& column : outcome_columns()) {
-    cell.values.push_back(mean_interval(values_of(reuse, column.value), p));
-  }
-  cell.picture = bias_of(result, reuse, &Outcome::energy, p);
-  cell.region = bias_of(result, reuse, &Outcome::region_energy, p);
-  cell.unbiased_picture = bias_of(result, unbiased, &Outcome::energy, p);
-  cell.unbiased_region = bias_of(result, unbiased, &Outcome::region_energy, p);
-  cell.audit = audit_of(reuse, p, cell.audited);
-  cell.equal_time = equal_time_of(result, reuse, p);
-  cell.price = mean_of(values_of(unbiased, &Outcome::seconds)) /
-               mean_of(values_of(reuse, &Outcome::seconds));
-  cell.cost_spread = spread_of(values_of(reuse, &Outcome::mean_spp));
-  cell.error_spread = spread_of(values_of(reuse, &Outcome::relmse));
   for (const VariationRow& row : variations()) {
     if (row.key != Variation::none) {
-      cell.changes[std::size_t(row.key)] = change_of(reuse, of(SampleMode::reuse, row.key));
+      cell.changes[std::size_t(row.key)] = change_of(plain, of(cell.subject.id, row.key));
     }
   }
   if (std::optional<Change>& enlarged = cell.changes[std::size_t(Variation::resolution)]) {
-    const std::optional<Change> uniform = change_of(uniform_trials(result, Variation::none),
-                                                    uniform_trials(result, Variation::resolution));
-    enlarged->error /= uniform->error > 0.0 ? uniform->error : 1.0;
+    const std::string_view uniform = estimator(EstimatorId::uniform).id;
+    const std::optional<Change> alike =
+        change_of(of(uniform, Variation::none), of(uniform, Variation::resolution));
+    enlarged->error /= alike->error > 0.0 ? alike->error : 1.0;
+  }
+}
+
+Cell cell_of(const CaseResult& result, const Subject& subject, Terms terms, const Trials& trials,
+             double p) {
+  Cell cell;
+  cell.failure = result.failure;
+  cell.subject = subject;
+  cell.subject.settings = trials.begin()->second->settings;
+  cell.terms = terms;
+  for (const Rule& rule : rules()) {
+    if (rule.applies(subject, terms)) {
+      cell.findings.push_back(judge_trials(rule, trials, p));
+    }
+  }
+  for (const OutcomeColumn& column : outcome_columns()) {
+    cell.values.push_back(mean_interval(values_of(trials, column.value), p));
+  }
+  const std::vector<Audit::Look> looks = looks_of(trials);
+  cell.audit = wrong_share_interval(looks, p);
+  cell.audited = double(looks.size());
+  cell.cost_spread = spread_of(values_of(trials, &Outcome::mean_spp));
+  cell.error_spread = spread_of(values_of(trials, &Outcome::relmse));
+  const Trials twins =
+      select(result, {.subject = subject.id, .terms = terms, .mode = SampleMode::unbiased});
+  if (!twins.empty()) {
+    cell.twin = judge_trials(rules().front(), twins, p);
+    cell.price = mean_of(values_of(twins, &Outcome::mean_spp)) /
+                 mean_of(values_of(trials, &Outcome::mean_spp));
+  }
+  if (terms == Terms::budget) {
+    set_changes(cell, result, trials);
   }
   return cell;
+}
+
+/// Calls visit(result, subject, terms, its plain trials) for each cell that there is.
+template <class Visit>
+void for_each_cell(std::span<const CaseResult> results, const Visit& visit) {
+  for (const CaseResult& result : results) {
+    for (const TermsRow& terms : terms_table()) {
+      for (const Subject& subject : result.subjects) {
+        const Trials trials = select(result, {.subject = subject.id, .terms = terms.key});
+        if (!trials.empty()) {
+          visit(result, subject, terms.key, trials);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -159,29 +163,30 @@ const Interval& Cell::value(std::string_view column) const {
   return values[std::size_t(place - columns.begin())];
 }
 
+const Finding& Cell::deciding() const {
+  for (const Verdict verdict : {Verdict::fails, Verdict::open}) {
+    const auto found = std::ranges::find(findings, verdict, &Finding::verdict);
+    if (found != findings.end()) {
+      return *found;
+    }
+  }
+  return findings.back();
+}
+
 StabilitySummary summarize(std::span<const CaseResult> results, double family) {
   StabilitySummary summary;
-  if (results.empty()) {
-    return summary;
-  }
-  std::vector<EstimatorId> ids;
-  for (const Trial& trial : results.front().trials) {
-    const EstimatorId id = trial.settings.estimator;
-    if (id != EstimatorId::uniform && id != EstimatorId::oracle &&
-        std::ranges::find(ids, id) == ids.end()) {
-      ids.push_back(id);
-    }
-  }
-  constexpr std::array tunings{Tuning::usual, Tuning::budget};
-  // Picture and region of every cell.
-  summary.confidence = {family, double(2 * results.size() * ids.size() * tunings.size())};
-  for (const CaseResult& result : results) {
-    for (const EstimatorId id : ids) {
-      for (const Tuning tuning : tunings) {
-        summary.cells.push_back(cell_of(result, id, tuning, summary.confidence.each()));
-      }
-    }
-  }
+  std::size_t tests = 0;
+  for_each_cell(results,
+                [&](const CaseResult&, const Subject& subject, Terms terms, const Trials&) {
+                  tests += std::size_t(std::ranges::count_if(
+                      rules(), [&](const Rule& rule) { return rule.applies(subject, terms); }));
+                  tests += subject.role == Role::studied && terms == Terms::budget ? 1 : 0;
+                });
+  summary.confidence = {family, std::max(double(tests), 1.0)};
+  for_each_cell(results, [&](const CaseResult& result, const Subject& subject, Terms terms,
+                             const Trials& trials) {
+    summary.cells.push_back(cell_of(result, subject, terms, trials, summary.confidence.each()));
+  });
   return summary;
 }
 

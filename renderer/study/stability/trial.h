@@ -11,14 +11,9 @@
 #include "renderer/adaptive/lane_settings.h"
 #include "renderer/measure/rejected_count.h"
 #include "renderer/study/stability/outcome.h"
+#include "renderer/study/stability/subject.h"
 
 namespace quartet {
-
-/// How a trial's thresholds were chosen.
-enum class Tuning {
-  usual,   ///< the estimator's defaults
-  budget,  ///< the multiple of them at which it takes the common budget
-};
 
 /// What is different from the plain experiment, to see how much that changes.
 enum class Variation { none, threshold_up, threshold_down, exposure, resolution };
@@ -34,7 +29,8 @@ std::span<const VariationRow> variations();
 /// One lane, run to its end.
 struct Trial {
   const FailureCase* failure = nullptr;
-  Tuning tuning = Tuning::usual;
+  std::string_view subject;  ///< its id
+  Terms terms = Terms::budget;
   Variation variation = Variation::none;
   std::uint64_t seed = 0;
   LaneSettings settings;
@@ -43,22 +39,22 @@ struct Trial {
   RejectedCount rejected;
 };
 
-/// What all trials of a case have in common. Policies must come to an end (not vote).
+/// What all trials of a case have in common.
 struct TrialSetup {
   const FailureCase* failure = nullptr;
   std::shared_ptr<const TraceScene> scene;
   RenderSettings settings;
-  Truth truth;
+  Judgement judgement;
   std::shared_ptr<const Audit> audit;
-  double target = 0.0;               ///< squared relative error above which a pixel is wrong
-  LaneSettings uniform;              ///< what the others are compared with
-  LaneSettings oracle;               ///< at the budget
-  std::vector<LaneSettings> usual;   ///< one an estimator
-  std::vector<LaneSettings> budget;  ///< the same
+  /// On the terms of the budget, with thresholds that meet it as far as they can.
+  std::vector<Subject> subjects;
+  std::uint32_t window_passes = 0;  ///< on the terms of the window
+  std::uint32_t most_spp = 0;       ///< that a pixel may have on the terms of the budget
 };
 
-/// All trials with the `seed`th seed: the plain experiment, and with the first few seeds its
-/// variations. Nothing if `stop` ended it early.
+/// All trials with the `seed`th seed: every subject on the terms of the budget, of what is studied
+/// also the unbiased twin and, with the first few seeds, variations; all but planted mistakes on
+/// the terms of the window. Nothing if `stop` ended it early.
 std::optional<std::vector<Trial>> run_trials(const TrialSetup& setup, std::uint32_t seed,
                                              const std::stop_token& stop);
 
