@@ -64,7 +64,7 @@ glm::dvec2 place(const SweepPoint& point, Cost cost) {
 }
 
 void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
-  Line line{.label = "uniform", .color = sweep_baseline_color, .points = {}, .dashed = true};
+  Line line{.label = "uniform", .color = sweep_baseline_color, .points = {}, .dash = Dash::dashed};
   for (const SweepPoint& point : summary.uniform) {
     line.points.push_back(place(point, cost));
   }

@@ -392,7 +392,7 @@ TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
     EXPECT_EQ(chart.bands.size(), 2u);
     ASSERT_EQ(chart.levels.size(), 1u);
     EXPECT_EQ(chart.levels[0].value, 1e-5);
-    const auto baseline = std::ranges::find(chart.lines, true, &Line::dashed);
+    const auto baseline = std::ranges::find(chart.lines, Dash::dashed, &Line::dash);
     ASSERT_NE(baseline, chart.lines.end());
     EXPECT_EQ(baseline->points.size(), uniform_points(small_result(), 0).size()) << "as measured";
   }
