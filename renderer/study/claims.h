@@ -12,7 +12,7 @@
 #include "renderer/base/interval.h"
 #include "renderer/measure/rejected_count.h"
 #include "renderer/study/regions.h"
-#include "renderer/study/sweep.h"
+#include "renderer/study/sample_world.h"
 
 namespace quartet {
 

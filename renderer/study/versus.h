@@ -13,7 +13,7 @@
 #include "renderer/measure/capped.h"
 #include "renderer/measure/error_parts.h"
 #include "renderer/measure/rejected_count.h"
-#include "renderer/study/sweep.h"
+#include "renderer/study/sample_world.h"
 
 namespace quartet {
 
