@@ -44,7 +44,7 @@ std::string with_unit(std::string_view label, const Metric& metric) {
 }
 
 std::string label_of(const SweepLane& lane) {
-  const std::string label(estimator(lane.settings.estimator).label);
+  std::string label(estimator(lane.settings.estimator).label);
   switch (lane.settings.estimator) {
     case EstimatorId::oracle:
       return label + ", knows the truth";
