@@ -37,7 +37,7 @@ void print_table(const BiasReport& report) {
     fmt::print("{:<16} {:<9} {:>9.2f} {:>9.3f}  {:<26} {:>9.2g}\n",
                estimator(runs.settings.estimator).id, sample_mode(runs.settings.mode).id,
                mean_of(runs.mean_spp), mean_of(runs.seconds), energy_text(report, runs),
-               mean_p(runs.energy, 0.0));
+               mean_p(energies_less_uniform(runs), 0.0));
   }
   for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
     fmt::print(

@@ -21,6 +21,7 @@
 #include "renderer/measure/left_out.h"
 #include "renderer/measure/reference/noise_floors.h"
 #include "renderer/measure/reference/reference.h"
+#include "renderer/measure/top_share.h"
 #include "ui/paper/error_figure.h"
 
 namespace quartet {
@@ -208,6 +209,9 @@ ordered_json record_of(const CompareOptions& options, const CompareResult& compa
   for (const Metric& row : metrics()) {
     json["metrics"][row.id] = number(compute_over_finite(row, comparison.test, reference.image));
     json["noise_floor"][row.id] = number(floors.of(row));
+    if (row.key == MetricId::relmse) {
+      json["metrics"][top_share_id] = number(relmse_top_share(comparison.test, reference.image));
+    }
   }
   json["metrics"]["energy_error"] = number(energy_error_of(comparison));
   json["seconds"] = comparison.seconds ? ordered_json(*comparison.seconds) : ordered_json(nullptr);
@@ -231,6 +235,10 @@ void print_table(const CompareOptions& options, const CompareResult& comparison)
     fmt::print("{:<15} {:>12.6g} {:>12}  {:<9} {}\n", row.id,
                compute_over_finite(row, comparison.test, reference.image), floor, row.unit,
                row.definition);
+    if (row.key == MetricId::relmse) {
+      fmt::print("{:<15} {:>12} {:>12}  {:<9} of relmse sits in the largest thousandth of pixels\n",
+                 "", top_share_text(relmse_top_share(comparison.test, reference.image)), "", "");
+    }
   }
   fmt::print("{:<15} {:>+12.6g} {:>12}  {:<9} mean luminance of x over that of r, less 1\n",
              "energy_error", energy_error_of(comparison), "", "");

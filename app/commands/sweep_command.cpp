@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "app/commands/commands.h"
 #include "app/options/lane_option.h"
@@ -15,14 +18,14 @@
 #include "app/records/rejected_report.h"
 #include "app/records/stop_report.h"
 #include "app/records/sweep_files.h"
+#include "app/records/sweep_table.h"
 #include "app/terminal/interrupt.h"
+#include "app/terminal/messages.h"
 #include "app/terminal/progress.h"
 #include "renderer/base/interval.h"
 #include "renderer/base/stopwatch.h"
+#include "renderer/base/table.h"
 #include "renderer/files/staged_files.h"
-#include "renderer/measure/energy.h"
-#include "renderer/view/sweep_charts.h"
-#include "renderer/view/ticks.h"
 
 namespace quartet {
 namespace {
@@ -35,12 +38,23 @@ struct SweepOptions {
   SweepPlan plan;
   std::string range = "0.1:10";
   std::string metric{quartet::metric(default_metric).id};
+  std::string twins = "all";
+  std::string effort;
   StopOptions stop;
   ReferenceChoice reference;
   std::uint32_t reference_spp = 1024;
   bool verify_time = false;
   std::string out;
 };
+
+/// Which twins, as a word.
+struct TwinsWord {
+  Twins key;
+  std::string_view id;
+};
+constexpr std::array twins_words{TwinsWord{Twins::none, "none"},
+                                 TwinsWord{Twins::at_defaults, "default"},
+                                 TwinsWord{Twins::at_all, "all"}};
 
 void parse_range(const std::string& text, SweepPlan& plan) {
   constexpr NumberRange<double> factors{1e-6, 1e6};
@@ -66,11 +80,14 @@ std::vector<LaneSettings> sweep_lanes(const SweepOptions& options, const StopCon
       lanes.estimators.emplace_back(row.id);
     }
   }
-  // The baselines are in every sweep: uniform sampling with passes for its thresholds, and what
-  // loses light by design, so that a gain of that kind is known when it is seen.
-  const std::string clamp(estimator(EstimatorId::uniform_clamp).id);
-  if (std::ranges::find(lanes.estimators, clamp) == lanes.estimators.end()) {
-    lanes.estimators.push_back(clamp);
+  // The baselines are in every sweep: uniform sampling with passes for its thresholds; what knows
+  // the truth, so that it is seen how much there is to gain; and what loses light by design, so
+  // that a gain of that kind is known when it is seen.
+  for (const EstimatorId key : {EstimatorId::oracle, EstimatorId::uniform_clamp}) {
+    const std::string id(estimator(key).id);
+    if (std::ranges::find(lanes.estimators, id) == lanes.estimators.end()) {
+      lanes.estimators.push_back(id);
+    }
   }
   std::vector<LaneSettings> lane_settings =
       settings_of_lanes(lanes, options.run.lane_settings, stop);
@@ -83,6 +100,8 @@ std::vector<LaneSettings> sweep_lanes(const SweepOptions& options, const StopCon
 SweepPlan sweep_plan(const SweepOptions& options) {
   SweepPlan plan = options.plan;
   parse_range(options.range, plan);
+  plan.twins =
+      find_row(std::span<const TwinsWord>(twins_words), options.twins, "choice of twins").key;
   plan.stop = stop_conditions(options.stop, true);
   plan.lane_settings = sweep_lanes(options, plan.stop);
   // Beside what else is given.
@@ -98,51 +117,16 @@ SweepPlan sweep_plan(const SweepOptions& options) {
   return plan;
 }
 
-std::string seed_text(std::uint32_t seeds) {
-  return seeds == 1 ? "1 seed" : fmt::format("{} seeds", seeds);
-}
-
-void print_points(const SweepSummary& summary) {
-  const Metric& row = metric(summary.metric);
-  // Rays are counted, so that what is called best is the same on every machine.
-  const bool traced = summary.uniform.back().mean_rays > 0.0;
-  const auto counted = std::size_t(traced ? Effort::rays : Effort::mean_spp);
-  fmt::print(
-      "energy: mean luminance over the reference's, less 1. Of uniform: the error over that of\n"
-      "uniform sampling run to as many {}, and as many seconds; below 1 the estimator gains, if\n"
-      "its energy is right.\n",
-      traced ? "rays" : "samples");
-  fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>9} {:>11} {:>11}\n", "", "", "", "", "", "",
-             "of uniform,", "of uniform,");
-  fmt::print("{:<22} {:>9} {:>9} {:>9} {:>11} {:>9} {:>11} {:>11}\n", "estimator", "factor",
-             "mean spp", "seconds", row.id, "energy", traced ? "rays" : "samples", "seconds");
-  for (std::size_t begin = 0; begin < summary.points.size();) {
-    const EstimatorId id = summary.points[begin].settings.estimator;
-    const SweepPoint* normal = nullptr;
-    const SweepPoint* best = &summary.points[begin];
-    std::size_t end = begin;
-    for (; end < summary.points.size() && summary.points[end].settings.estimator == id; ++end) {
-      const SweepPoint& point = summary.points[end];
-      normal = point.factor == 1.0 ? &point : normal;
-      best = point.against_uniform[counted] < best->against_uniform[counted] ? &point : best;
-    }
-    const auto print = [&](std::string_view label, const SweepPoint& point, std::string_view note) {
-      fmt::print("{:<22} {:>9.3g} {:>9.2f} {:>9.3f} {:>11.4g} {:>9} {:>11.3f} {:>11.3f}   {}\n",
-                 label, point.factor, point.mean_spp, point.seconds, point.error,
-                 energy_text(point.energy), point.against_uniform[counted],
-                 point.against_uniform[std::size_t(Effort::seconds)], note);
-    };
-    print(estimator(id).label, *normal,
-          estimator(id).channels > 0 ? "at its default threshold" : "which loses light by design");
-    if (best->against_uniform[counted] < normal->against_uniform[counted]) {
-      print("", *best, "at the best of the sweep");
-    }
-    begin = end;
+/// A line on stderr if bias² and variance are known at the ends of runs alone.
+void tell_of_parts(const SweepResult& result, const SweepPlan& plan) {
+  if (result.parts_at_ends_only) {
+    constexpr double gib = double(1 << 30);
+    warn(
+        "bias² and variance of {} are those at the ends of the runs alone: on the way they take "
+        "{:.1f} GiB, more than --memory; {} takes little",
+        parts_metric(plan)->id, double(result.bytes_of_parts) / gib,
+        metric(MetricId::relmse_regions).id);
   }
-  const SweepPoint& uniform = summary.uniform.back();
-  fmt::print("{:<22} {:>9} {:>9.2f} {:>9.3f} {:>11.4g} {:>9} {:>11.3f} {:>11.3f}\n", "uniform", "",
-             uniform.mean_spp, uniform.seconds, uniform.error, energy_text(uniform.energy), 1.0,
-             1.0);
 }
 
 void print_savings(const SweepResult& result) {
@@ -174,8 +158,8 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
   std::vector<Point> points{
       {default_settings(EstimatorId::uniform), result.uniform.front().back()}};
   for (const SweepRun& run : result.runs) {
-    if (run.seed == result.first_seed && run.factor == 1.0) {
-      points.push_back({run.settings, run.end});
+    if (run.seed == result.first_seed && run.lane.factor == 1.0 && !run.lane.twin) {
+      points.push_back({run.lane.settings, run.end});
     }
   }
   for (int round = 0; round < verify_rounds; ++round) {
@@ -208,10 +192,33 @@ void verify_time(const SampleWorld& world, const SweepResult& result, std::stop_
              std::abs(sum) <= 0.05 * count ? "" : ": more than the 5 % that are promised");
 }
 
+/// Halves the size until a sweep of all estimators ends within minutes, unless a size was asked for
+/// or a file is compared with. Returns the options that give that size.
+RunOptions with_sweep_size(const SweepOptions& options, Run& run) {
+  constexpr std::int64_t enough = 160'000;  // pixels
+  RunOptions sized = options.run;
+  int& width = run.settings.width;
+  int& height = run.settings.height;
+  const std::string whole = fmt::format("{}x{}", width, height);
+  if (sized.size.empty() && options.reference.empty()) {
+    while (std::int64_t(width) * height > enough) {
+      width = std::max(1, width / 2);
+      height = std::max(1, height / 2);
+    }
+    sized.size = fmt::format("{}x{}", width, height);
+    if (sized.size != whole) {
+      tell("{} pixels, where the scene has {}; --size chooses", sized.size, whole);
+    }
+  }
+  return sized;
+}
+
 void run_sweep_command(const SweepOptions& options, const Program& program) {
   const SweepPlan plan = sweep_plan(options);
+  const EffortRow* const effort = options.effort.empty() ? nullptr : &find_effort(options.effort);
   check_seeds(options.run, plan.seeds);
   Run run = prepare_run(options.run, 1);
+  const RunOptions sized = with_sweep_size(options, run);
   check_rays(plan.stop, run.scene->scene());
   // Variances would cost every run memory and time, and no estimator that does not ask for them.
   run.lab.statistics = {};
@@ -230,18 +237,21 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
   if (!result) {
     throw Interrupted();
   }
+  const SweepSummary summary =
+      summarize(*result, plan, reference->noise_floor(plan.metrics.front()));
   const SweepReport report{run,
                            plan,
                            *result,
-                           reference->noise_floor(plan.metrics.front()),
+                           summary,
+                           effort ? effort->key : summary.counted(),
                            reference->spp,
                            program.command_line};
   files.finish([&] { write_sweep_files(files, report); });
-  print_points(summarize(*result, plan, 0, report.noise_floor));
+  fmt::print("{}", sweep_table(summary));
   print_savings(*result);
-  fmt::print("sweep and calibration as .csv, .png, .pdf and .svg are in {}; median of {}\n",
-             options.out, seed_text(plan.seeds));
-  report_rejected(result->rejected, options.run, run.scene, run.settings);
+  fmt::print("{} are in {}\n", fmt::join(sweep_file_names(), ", "), options.out);
+  tell_of_parts(*result, plan);
+  report_rejected(result->rejected, sized, run.scene, run.settings);
   tell_if_capped(result->capped, CappedRun::most_of_many);
   if (options.verify_time) {
     verify_time(world, *result, interrupt.token());
@@ -252,7 +262,7 @@ void run_sweep_command(const SweepOptions& options, const Program& program) {
 
 void add_sweep_command(CLI::App& app, const Program& program) {
   CLI::App* command = app.add_subcommand(
-      "sweep", "Error against time and samples for every estimator over a range of thresholds");
+      "sweep", "Error, lost light, bias² and variance against effort, over thresholds and passes");
   const auto options = std::make_shared<SweepOptions>();
   add_run_options(*command, options->run);
   command
@@ -267,6 +277,17 @@ void add_sweep_command(CLI::App& app, const Program& program) {
   add_seeds_option(*command, options->plan.seeds);
   command->add_option("--metric", options->metric, "Of the chart: see quartet list")
       ->capture_default_str();
+  command
+      ->add_option("--twins", options->twins,
+                   "Which lanes are also run in mode unbiased, their pilots charged: none, those "
+                   "with default thresholds, or all")
+      ->type_name("none|default|all")
+      ->capture_default_str();
+  command
+      ->add_option("--axis", options->effort,
+                   "What the charts are drawn over: seconds, rays or spp; rays if not given, which "
+                   "are the same on every machine")
+      ->type_name("seconds|rays|spp");
   add_stop_options(*command, options->stop);
   add_reference_option(*command, options->reference);
   add_reference_spp_option(*command, options->reference_spp);
@@ -274,15 +295,20 @@ void add_sweep_command(CLI::App& app, const Program& program) {
                     "Rerun some points alone, without shared samples, and compare their time");
   add_out_option(*command, options->out);
   command->footer(
-      "A point of a curve is where a run ends with the default thresholds times a factor: after "
-      "15 passes,\nor at 64 mean samples per pixel, unless told otherwise. Under the policy vote "
-      "every pixel gets at\nleast one sample a pass, so that the highest thresholds still cost "
-      "what uniform sampling of as many\npasses does. The baseline goes on until it has taken as "
-      "much as the dearest run.\n"
+      "A line is a lane at fixed thresholds, the default ones times a factor, over its passes; it "
+      "ends after 15\npasses, or at 64 mean samples per pixel, unless told otherwise. In every "
+      "sweep there are baselines:\nuniform sampling, which goes on until it has taken as much as "
+      "the dearest run; uniform-clamp, which loses\nlight by design; the unbiased twin of each "
+      "lane, charged for its pilot; and the oracle,\nwhich knows the truth "
+      "and is a bound, no method.\n"
+      "Without --size and --reference a large scene is swept at half its size, or a quarter.\n"
+      "Under the policy vote every pixel gets at least one sample a pass, so that the highest "
+      "thresholds still\ncost what uniform sampling of as many passes does.\n"
       "Examples:\n"
       "  quartet sweep cornell-checker --size 480x270 --out sweep\n"
       "  quartet sweep veach-plates --estimators contrast,kl --thresholds 16 --seeds 5 "
-      "--metric flip --out plates");
+      "--metric flip --out plates\n"
+      "  quartet sweep cornell-checker --size 240x135 --twins default --axis seconds --out quick");
   command->callback([options, &program] { run_sweep_command(*options, program); });
 }
 

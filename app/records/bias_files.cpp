@@ -11,6 +11,7 @@
 #include "renderer/base/interval.h"
 #include "renderer/base/version.h"
 #include "renderer/files/exr.h"
+#include "renderer/measure/energy.h"
 #include "ui/paper/figure.h"
 #include "ui/paper/lab_figure.h"
 
@@ -46,9 +47,9 @@ double common_end(const std::vector<BiasRuns>& all) {
 
 Figure figure_of(const BiasReport& report) {
   Figure figure;
-  figure.title =
-      fmt::format("Bias in {}: mean of {} runs of {} passes less uniform sampling",
-                  report.run.scene->scene().name, report.runs.front().energy.size(), report.passes);
+  figure.title = fmt::format("Bias in {}: mean of {} runs of {} passes less uniform sampling",
+                             report.run.scene->scene().name, report.runs.front().seconds.size(),
+                             report.passes);
   figure.columns = 2;
   const double end = common_end(report.runs);
   figure.shared_bar =
@@ -78,13 +79,14 @@ std::string csv_of(const BiasReport& report) {
                     estimator(runs.settings.estimator).id, policy(runs.settings.policy.kind).id,
                     sample_mode(runs.settings.mode).id, thresholds_text(runs.settings));
     const double pixels = double(runs.difference.size());
-    for (std::size_t k = 0; k < runs.energy.size(); ++k) {
+    for (std::size_t k = 0; k < runs.seconds.size(); ++k) {
       csv += fmt::format("{},{},{},{:.6f},{:.0f},{:.0f},{:.6f},energy_less_uniform,{:.9g}\n", lane,
                          report.run.settings.seed + k, report.passes, runs.seconds[k],
                          runs.mean_rays[k] * pixels, runs.mean_spp[k] * pixels, runs.mean_spp[k],
-                         runs.energy[k]);
+                         energy_error(runs.luminance[k], runs.uniform_luminance[k]));
     }
-    const Interval energy = mean_interval(runs.energy, each_rate(report));
+    const std::vector<double> energies = energies_less_uniform(runs);
+    const Interval energy = mean_interval(energies, each_rate(report));
     const auto row = [&](std::string_view metric, double value) {
       csv += fmt::format("{},all,{},{:.6f},{:.0f},{:.0f},{:.6f},{},{:.9g}\n", lane, report.passes,
                          mean_of(runs.seconds), mean_of(runs.mean_rays) * pixels,
@@ -93,7 +95,7 @@ std::string csv_of(const BiasReport& report) {
     row("energy_less_uniform", energy.mean);
     row("energy_less_uniform_low", energy.low);
     row("energy_less_uniform_high", energy.high);
-    row("energy_p", mean_p(runs.energy, 0.0));
+    row("energy_p", mean_p(energies, 0.0));
     row("noise", runs.noise);
   }
   return csv;
@@ -131,7 +133,7 @@ ExrImage exr_of(const BiasReport& report) {
 }  // namespace
 
 std::string energy_text(const BiasReport& report, const BiasRuns& runs) {
-  const Interval energy = mean_interval(runs.energy, each_rate(report));
+  const Interval energy = mean_interval(energies_less_uniform(runs), each_rate(report));
   return fmt::format("{} ± {:.3f} %", signed_percent(energy.mean),
                      100.0 * (energy.high - energy.mean));
 }

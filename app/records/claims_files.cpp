@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "app/records/csv_field.h"
+#include "app/records/interval_text.h"
 #include "app/records/json_text.h"
 #include "renderer/base/table.h"
+#include "renderer/measure/top_share.h"
 
 namespace quartet {
 namespace {
@@ -68,7 +70,9 @@ std::vector<Quantity> quantities(const ClaimsReport& report) {
   whole("lit_mean_spp", [](const ClaimRun& run) { return run.lit_spp; });
   whole("seconds", [](const ClaimRun& run) { return run.seconds; });
   whole("relmse", [](const ClaimRun& run) { return run.relmse; });
+  whole(std::string(top_share_id), [](const ClaimRun& run) { return run.relmse_top; });
   whole("flip", [](const ClaimRun& run) { return run.flip; });
+  whole("energy_error", [](const ClaimRun& run) { return run.energy; });
   all.push_back(ratio_to_uniform(report, MetricId::relmse));
   all.push_back(ratio_to_uniform(report, MetricId::flip));
   return all;
@@ -145,9 +149,11 @@ void add_races(const ClaimsReport& report, std::string& text) {
   for (const MetricId id : {MetricId::relmse, MetricId::flip}) {
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       const Interval ratio = against_uniform(report.data, c, id);
-      text += fmt::format("  {:<8} {:<10} {:.3f} [{:.3f}, {:.3f}]  {}\n", metric(id).id,
+      const Interval energy =
+          over_seeds(report.data, [&](const ClaimSeed& seed) { return seed.runs[c].energy; });
+      text += fmt::format("  {:<8} {:<10} {:.3f} [{:.3f}, {:.3f}]  {}; energy {}\n", metric(id).id,
                           estimator(report_criteria[c]).id, ratio.mean, ratio.low, ratio.high,
-                          race_text(ratio));
+                          race_text(ratio), percent_text(energy));
     }
   }
 }

@@ -19,6 +19,7 @@
 #include "renderer/measure/energy.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/measure/reference/noise_floors.h"
+#include "renderer/measure/top_share.h"
 #include "renderer/trace/store/sample_store.h"
 #include "renderer/view/views.h"
 
@@ -72,6 +73,9 @@ std::vector<std::pair<std::string_view, double>> true_errors(const Snapshot& sna
   std::vector<std::pair<std::string_view, double>> errors;
   for (const Metric& row : metrics()) {
     errors.emplace_back(row.id, row.compute(image, *snapshot.reference));
+    if (row.key == MetricId::relmse) {
+      errors.emplace_back(top_share_id, relmse_top_share(image, *snapshot.reference));
+    }
   }
   const double mse = metric(MetricId::mse).compute(image, *snapshot.reference);
   errors.emplace_back("efficiency", efficiency(mse, snapshot.lanes[lane].history.back().seconds));
@@ -201,6 +205,10 @@ std::string thresholds_text(const LaneSettings& settings) {
 }
 
 std::string csv_lane(const Run& run, const LaneSettings& settings, std::uint64_t seed) {
+  return csv_lane(run, settings, std::to_string(seed));
+}
+
+std::string csv_lane(const Run& run, const LaneSettings& settings, std::string_view seed) {
   return fmt::format("{},{},{},{},{},{},{}", csv_field(run.scene->scene().name),
                      sampler_row(run.settings.sampler).id, estimator(settings.estimator).id,
                      policy(settings.policy.kind).id, sample_mode(settings.mode).id,
@@ -217,8 +225,11 @@ std::string csv_measurement(const Run& run, const LaneSettings& settings, std::u
 std::string csv_metric_rows(const std::string& head, std::span<const MetricId> metrics,
                             const Measurement& measurement) {
   std::string csv;
-  for (std::size_t m = 0; m < metrics.size(); ++m) {
+  for (std::size_t m = 0; m < measurement.values.size(); ++m) {
     csv += fmt::format("{},{},{:.9g}\n", head, metric(metrics[m]).id, measurement.values[m]);
+    if (metrics[m] == MetricId::relmse && !std::isnan(measurement.relmse_top)) {
+      csv += fmt::format("{},{},{:.6f}\n", head, top_share_id, measurement.relmse_top);
+    }
   }
   return csv + fmt::format("{},energy_error,{:.9g}\n", head, measurement.energy);
 }

@@ -47,9 +47,12 @@ std::string thresholds_text(const LaneSettings& settings);
 
 /// The fields of csv_header up to `seed`, and up to `mean_spp`.
 std::string csv_lane(const Run& run, const LaneSettings& settings, std::uint64_t seed);
+/// `seed` may be "all", of what all of them together say.
+std::string csv_lane(const Run& run, const LaneSettings& settings, std::string_view seed);
 std::string csv_measurement(const Run& run, const LaneSettings& settings, std::uint64_t seed,
                             const Measurement& measurement);
-/// A row for each of the metrics that it was measured in, and one for its energy.
+/// A row for each of the metrics that it was measured in, one behind relMSE for what of it sits in
+/// the largest thousandth of the pixels, and one for its energy.
 std::string csv_metric_rows(const std::string& head, std::span<const MetricId> metrics,
                             const Measurement& measurement);
 

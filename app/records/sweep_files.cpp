@@ -7,6 +7,8 @@
 
 #include "app/records/csv_field.h"
 #include "app/records/run_record.h"
+#include "app/records/sweep_json.h"
+#include "renderer/measure/top_share.h"
 #include "renderer/view/sweep_charts.h"
 #include "ui/paper/chart_figure.h"
 
@@ -38,20 +40,91 @@ ChartFigure figure_of(const SweepReport& report, std::string title) {
   const SweepPlan& plan = report.plan;
   ChartFigure figure;
   figure.title = report.run.scene->scene().name + " · " + std::move(title);
-  figure.lines = {
-      fmt::format("{}x{} · {} samples · each point: thresholds × a factor from {:g} to {:g}, after "
-                  "{} · median of {} seed{}",
-                  report.run.settings.width, report.run.settings.height,
-                  sampler_row(report.run.settings.sampler).id, plan.low, plan.high,
-                  stop_text(plan.stop), plan.seeds, plan.seeds == 1 ? "" : "s")};
+  figure.lines = {fmt::format("{}x{} · {} samples · each run ends after {} · mean of {} seed{}",
+                              report.run.settings.width, report.run.settings.height,
+                              sampler_row(report.run.settings.sampler).id, stop_text(plan.stop),
+                              plan.seeds, plan.seeds == 1 ? "" : "s")};
   figure.footer = report.command_line;
   return figure;
+}
+
+/// Of many charts.
+void make_small(ChartFigure& figure) {
+  figure.columns = 4;
+  figure.area_width = 300.0;
+  figure.area_height = 230.0;
+}
+
+std::string metric_text(const SweepReport& report) {
+  const Metric& row = metric(report.summary.metric);
+  std::string text = fmt::format("{}: {}", row.label, row.definition);
+  if (report.reference_spp > 0) {
+    text +=
+        fmt::format("; reference of {} spp, uniform, other random numbers", report.reference_spp);
+  }
+  return text;
 }
 
 void write_figure(StagedFiles& files, const std::string& name, const ChartFigure& figure) {
   write_chart_png(figure, files.stage(name + ".png"));
   write_chart_pdf(figure, files.stage(name + ".pdf"));
   write_chart_svg(figure, files.stage(name + ".svg"));
+}
+
+/// Rows of what the seeds of a line say together, with one beginning.
+class JointRows {
+ public:
+  JointRows(const SweepReport& report, const SweepLane& lane, const SweepPoint& point) {
+    const double pixels = double(report.run.settings.width) * double(report.run.settings.height);
+    head_ =
+        fmt::format("{},{},{:.6f},{:.0f},{:.0f},{:.6f}", csv_lane(report.run, lane.settings, "all"),
+                    point.pass > 0 ? std::to_string(point.pass) : "end", point.seconds,
+                    point.mean_rays * pixels, point.mean_spp * pixels, point.mean_spp);
+  }
+
+  void number(std::string_view name, double value) {
+    if (std::isfinite(value)) {
+      rows_ += fmt::format("{},{},{:.9g}\n", head_, name, value);
+    }
+  }
+  void interval(const std::string& name, const Interval& value) {
+    number(name, value.mean);
+    number(name + "_low", value.low);
+    number(name + "_high", value.high);
+  }
+  const std::string& rows() const { return rows_; }
+
+ private:
+  std::string head_;
+  std::string rows_;
+};
+
+std::string joint_rows(const SweepReport& report, const SweepLane& lane, const SweepPoint& point) {
+  const SweepSummary& summary = report.summary;
+  JointRows rows(report, lane, point);
+  rows.interval(std::string(metric(summary.metric).id), point.error);
+  if (summary.parts_metric != nullptr) {
+    rows.number(fmt::format("{}_squared_bias", summary.parts_metric->id), point.parts.squared_bias);
+    rows.number(fmt::format("{}_variance", summary.parts_metric->id), point.parts.variance);
+  }
+  rows.interval("energy_error", point.energy);
+  return rows.rows();
+}
+
+/// What ends have beside joint_rows().
+std::string end_rows(const SweepReport& report, std::size_t line) {
+  const SweepLine& from = report.summary.lines[line];
+  JointRows rows(report, from.lane, from.end());
+  for (const EffortRow& effort : efforts()) {
+    rows.interval(fmt::format("{}_of_uniform_{}", metric(report.summary.metric).id, effort.id),
+                  from.end().against_uniform[std::size_t(effort.key)]);
+  }
+  for (std::size_t m = 1; m < report.plan.metrics.size(); ++m) {
+    rows.interval(std::string(metric(report.plan.metrics[m]).id),
+                  report.summary.ends[m][line].error);
+  }
+  rows.number(top_share_id, from.end().relmse_top);
+  return rows.rows();
 }
 
 }  // namespace
@@ -67,7 +140,12 @@ std::string sweep_csv(const SweepReport& report) {
     }
   }
   for (const SweepRun& run : report.result.runs) {
-    const std::string head = csv_measurement(report.run, run.settings, run.seed, run.end);
+    const LaneSettings& settings = run.lane.settings;
+    for (const Measurement& pass : run.way) {
+      csv += csv_metric_rows(csv_measurement(report.run, settings, run.seed, pass),
+                             report.plan.metrics, pass);
+    }
+    const std::string head = csv_measurement(report.run, settings, run.seed, run.end);
     csv += csv_metric_rows(head, report.plan.metrics, run.end);
     for (const auto& [name, value] : {std::pair{"rank_correlation", run.quality.rank_correlation},
                                       {"false_stops", run.quality.stops.share()},
@@ -76,6 +154,15 @@ std::string sweep_csv(const SweepReport& report) {
         csv += fmt::format("{},{},{:.6f}\n", head, name, value);
       }
     }
+  }
+  for (const SweepPoint& point : report.summary.uniform.points) {
+    csv += joint_rows(report, report.summary.uniform.lane, point);
+  }
+  for (std::size_t i = 0; i < report.summary.lines.size(); ++i) {
+    for (const SweepPoint& point : report.summary.lines[i].points) {
+      csv += joint_rows(report, report.summary.lines[i].lane, point);
+    }
+    csv += end_rows(report, i);
   }
   return csv;
 }
@@ -86,7 +173,7 @@ std::string calibration_csv(const SweepReport& report) {
       "pixels\n";
   for (const SweepRun& run : report.result.runs) {
     for (const CalibrationBin& bin : run.quality.calibration) {
-      csv += fmt::format("{},{:.6g},{:.6g},{}\n", csv_lane(report.run, run.settings, run.seed),
+      csv += fmt::format("{},{:.6g},{:.6g},{}\n", csv_lane(report.run, run.lane.settings, run.seed),
                          bin.estimated, bin.true_squared_error, bin.pixels);
     }
   }
@@ -95,20 +182,28 @@ std::string calibration_csv(const SweepReport& report) {
 
 void write_sweep_files(StagedFiles& files, const SweepReport& report) {
   files.write("sweep.csv", sweep_csv(report));
+  files.write("sweep.json", sweep_json(report));
   files.write("calibration.csv", calibration_csv(report));
-  const SweepSummary summary = summarize(report.result, report.plan, 0, report.noise_floor);
-  ChartFigure sweep = figure_of(report, "error against cost of adaptive sampling");
-  sweep.charts = sweep_charts(summary);
-  if (report.reference_spp > 0) {
-    sweep.lines.push_back(fmt::format("{}: {}; reference of {} spp, uniform, other random numbers",
-                                      metric(summary.metric).label,
-                                      metric(summary.metric).definition, report.reference_spp));
-  }
+  ChartFigure sweep = figure_of(report, "adaptive sampling at the default thresholds");
+  sweep.charts = overview_charts(report.summary, report.effort);
+  sweep.lines.push_back(metric_text(report));
+  sweep.lines.emplace_back(
+      "A mark is a pass. Bias² is without its own noise, and where it comes out below 0 it is not "
+      "drawn.");
   write_figure(files, "sweep", sweep);
+  ChartFigure thresholds = figure_of(report, "each estimator at fixed thresholds");
+  thresholds.charts = threshold_charts(report.summary, report.effort);
+  make_small(thresholds);
+  thresholds.lines.push_back(metric_text(report));
+  thresholds.lines.emplace_back(
+      "A line is a lane over its passes, its label the factor on the default thresholds; unbiased "
+      "lanes are charged with their pilots.");
+  write_figure(files, "thresholds", thresholds);
   ChartFigure calibration = figure_of(report, "what the error estimators know");
-  calibration.charts = {calibration_chart(report.result)};
+  calibration.charts = calibration_charts(report.result);
+  make_small(calibration);
   calibration.lines.emplace_back(
-      "At the default thresholds with the first seed; each dot is the mean of a 32nd of the "
+      "At the default thresholds with the first seed; each mark is the mean of a 32nd of the "
       "pixels.");
   write_figure(files, "calibration", calibration);
 }

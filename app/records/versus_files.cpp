@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options/lane_option.h"
+#include "app/records/interval_text.h"
 #include "app/records/json_text.h"
 #include "app/records/run_record.h"
 #include "renderer/base/number_text.h"
+#include "renderer/measure/top_share.h"
 
 namespace quartet {
 namespace {
@@ -40,13 +42,12 @@ std::string effort_text(const VersusReport& report, double effort) {
   return "";
 }
 
-std::string percent_text(const Interval& share) {
-  return fmt::format("{:+.2f} % ({:+.2f} to {:+.2f})", 100.0 * share.mean, 100.0 * share.low,
-                     100.0 * share.high);
-}
-
-std::string ratio_text(const Interval& ratio) {
-  return fmt::format("{:.3f} ({:.3f} to {:.3f})", ratio.mean, ratio.low, ratio.high);
+/// What of relMSE sits in the largest thousandth of the pixels at the ends of the runs, mean over
+/// the seeds; NaN where relMSE was not measured.
+double mean_top_share(const VersusReport& report, std::size_t lane) {
+  return mean_of(over_seeds(report.result, [&](const VersusSeed& seed) {
+    return seed.runs[lane].passes.back().relmse_top;
+  }));
 }
 
 /// What the energies say of a gain: a lane that lost light may owe its lower error to that.
@@ -107,8 +108,14 @@ std::string versus_text(const VersusReport& report) {
   }
   text += fmt::format("\n{:<16} {:>28}\n", "metric", "A over B");
   for (std::size_t m = 0; m < report.plan.metrics.size(); ++m) {
-    text += fmt::format("{:<16} {:>28}\n", metric(report.plan.metrics[m]).id,
+    text += fmt::format("{:<16} {:>28}", metric(report.plan.metrics[m]).id,
                         ratio_text(error_ratio(report.result, m, report.each_rate())));
+    if (report.plan.metrics[m] == MetricId::relmse) {
+      text += fmt::format("   of A's {}, of B's {} sits in the largest thousandth of pixels",
+                          top_share_text(mean_top_share(report, 0)),
+                          top_share_text(mean_top_share(report, 1)));
+    }
+    text += '\n';
   }
   const std::string floor =
       std::isnan(report.noise_floor)
@@ -138,6 +145,7 @@ std::string versus_json(const VersusReport& report) {
     entry["energy_error"] = interval_json(energy_of(report.result, lane, report.each_rate()));
     entry["squared_bias"] = report.result.parts[lane].squared_bias;
     entry["variance"] = report.result.parts[lane].variance;
+    entry[std::string(top_share_id)] = mean_top_share(report, lane);
   }
   for (std::size_t m = 0; m < report.plan.metrics.size(); ++m) {
     ordered_json& entry = json["ratios"][std::string(metric(report.plan.metrics[m]).id)];

@@ -120,6 +120,16 @@ Interval mean_interval(std::span<const double> values, double p) {
   return {mean, mean - half, mean + half};
 }
 
+Interval geometric_interval(std::span<const double> values, double p) {
+  std::vector<double> logarithms;
+  logarithms.reserve(values.size());
+  for (const double value : values) {
+    logarithms.push_back(std::log(value));
+  }
+  const Interval interval = mean_interval(logarithms, p);
+  return {std::exp(interval.mean), std::exp(interval.low), std::exp(interval.high)};
+}
+
 double mean_p(std::span<const double> values, double truth) {
   const double mean = mean_of(values);
   if (values.size() < 2) {
@@ -130,6 +140,21 @@ double mean_p(std::span<const double> values, double truth) {
     return mean == truth ? 1.0 : 0.0;
   }
   return student_p((mean - truth) / error, int(values.size()) - 1);
+}
+
+std::vector<double> ratio_pseudovalues(std::span<const double> numerators,
+                                       std::span<const double> denominators) {
+  assert(numerators.size() == denominators.size() && numerators.size() >= 2);
+  const double count = double(numerators.size());
+  const double above = count * mean_of(numerators);
+  const double below = count * mean_of(denominators);
+  std::vector<double> values;
+  values.reserve(numerators.size());
+  for (std::size_t i = 0; i < numerators.size(); ++i) {
+    const double without = (above - numerators[i]) / (below - denominators[i]);
+    values.push_back(count * above / below - (count - 1.0) * without);
+  }
+  return values;
 }
 
 Interval share_interval(double hits, double trials, double p) {

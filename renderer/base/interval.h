@@ -37,9 +37,20 @@ float largest_but(std::vector<float> values, std::size_t left_out);
 /// value nothing is known: its interval has no ends.
 Interval mean_interval(std::span<const double> values, double p);
 
+/// Of the geometric mean of independent values above 0, the same of their logarithms.
+Interval geometric_interval(std::span<const double> values, double p);
+
 /// Probability that the mean of independent values would lie at least so far from `truth` if that
 /// was their expectation; 1 if all are equal to it, 0 if all are equal to something else.
 double mean_p(std::span<const double> values, double truth);
+
+/// What each of at least two independent pairs contributes to Σ numerators / Σ denominators, so
+/// that mean_interval() and mean_p() of these numbers are those of the ratio: the pseudovalues of
+/// the jackknife (Quenouille 1956; Tukey 1958). The mean of the pairs' own ratios is off where
+/// denominators are noisy, however many pairs there are; the ratio of the sums is off by a term in
+/// 1/pairs, which the jackknife takes away.
+std::vector<double> ratio_pseudovalues(std::span<const double> numerators,
+                                       std::span<const double> denominators);
 
 /// Of a share, of which `hits` of `trials` were seen: Wilson 1927. Of no trials: 0 to 1.
 Interval share_interval(double hits, double trials, double p);

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "renderer/base/image.h"
 
@@ -44,6 +45,10 @@ struct Metric {
   /// above.
   ScalarImage (*map)(const RadianceImage& test, const RadianceImage& reference);
   std::string_view map_quantity;  ///< what `map` holds, with its unit
+  /// Of a mean of squares of what is linear in x: the numbers that are squared, as many of every
+  /// picture of a size, so that the metric can be split into bias² and variance (ErrorSums). Null
+  /// for others. Throws as above.
+  std::vector<float> (*errors)(const RadianceImage& test, const RadianceImage& reference) = nullptr;
 };
 
 /// Where nobody chose one: neither a clamp nor stopping early wins in it, because what they lose in

@@ -72,7 +72,7 @@ double variance_of(double sum, double squares, double count) {
 }
 
 void finish(const Sums& sums, int width, int height, BiasRuns& runs) {
-  const double count = double(runs.energy.size());
+  const double count = double(runs.seconds.size());
   runs.mean = RadianceImage(width, height);
   runs.uniform = RadianceImage(width, height);
   runs.difference = ScalarImage(width, height);
@@ -91,6 +91,14 @@ void finish(const Sums& sums, int width, int height, BiasRuns& runs) {
 }
 
 }  // namespace
+
+std::vector<double> energies_less_uniform(const BiasRuns& runs) {
+  std::vector<double> energies = ratio_pseudovalues(runs.luminance, runs.uniform_luminance);
+  for (double& energy : energies) {
+    energy -= 1.0;
+  }
+  return energies;
+}
 
 double price_of_unbiasedness(const BiasRuns& reuse, const BiasRuns& unbiased) {
   return unbiased.noise * mean_of(unbiased.seconds) / (reuse.noise * mean_of(reuse.seconds));
@@ -143,7 +151,8 @@ std::vector<BiasRuns> measure_bias(
       runs[i].mean_spp.push_back(mean_spp(last, shown.size()));
       runs[i].mean_rays.push_back(mean_rays(last, shown.size()));
       runs[i].seconds.push_back(last.seconds);
-      runs[i].energy.push_back(energy_error(shown, other));
+      runs[i].luminance.push_back(mean_luminance(shown));
+      runs[i].uniform_luminance.push_back(mean_luminance(other));
       keep_most(runs[i].rejected, rejected_of(lane, own.seed));
       keep_most(runs[i].capped, capped_pixels(lane));
       runs[i].partial |= lab.partial();

@@ -8,6 +8,9 @@
 #include <numeric>
 
 #include "renderer/adaptive/run_lab.h"
+#include "renderer/measure/energy.h"
+#include "renderer/measure/error_curve.h"
+#include "renderer/measure/top_share.h"
 
 namespace quartet {
 namespace {
@@ -159,7 +162,9 @@ class ClaimLab {
     run.seconds = lane().history().back().seconds;
     const RadianceImage picture = lane().film().image();
     run.relmse = error(MetricId::relmse, picture);
+    run.relmse_top = relmse_top_share(picture, *world_.reference);
     run.flip = error(MetricId::flip, picture);
+    run.energy = energy_error(picture, *world_.reference);
     measure_regions(lane(), regions_, pixels, run);
     return true;
   }

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "renderer/base/interval.h"
+#include "renderer/measure/rejected_count.h"
 #include "renderer/study/regions.h"
-#include "renderer/study/sweep.h"
+#include "renderer/study/sample_world.h"
 
 namespace quartet {
 
@@ -35,7 +36,9 @@ struct ClaimRun {
   double lit_spp = 0.0;  ///< the mean over all pixels but the black margin
   double seconds = 0.0;  ///< as if alone
   double relmse = 0.0;
+  double relmse_top = 0.0;  ///< relmse_top_share()
   double flip = 0.0;
+  double energy = 0.0;          ///< energy_error(): a gain may be light that was lost
   double uniform_relmse = 0.0;  ///< of uniform sampling after as many seconds, with the same seed
   double uniform_flip = 0.0;
   FireflyResponse firefly;

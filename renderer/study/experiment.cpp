@@ -8,6 +8,7 @@
 #include "renderer/adaptive/run_lab.h"
 #include "renderer/base/parallel.h"
 #include "renderer/measure/energy.h"
+#include "renderer/measure/top_share.h"
 
 namespace quartet {
 namespace {
@@ -47,17 +48,25 @@ Experiment::Experiment(SampleSource source, int width, int height, const LabOpti
       lab_(idle_lab(std::move(source), width, height, options, reference_)) {
 }
 
-Measurement Experiment::measure(std::span<const MetricId> metrics) const {
+Measurement Experiment::measure(const RunPlan& plan, bool is_end) const {
   Measurement measurement;
   measurement.record = lane().history().back();
   measurement.mean_spp = mean_spp(measurement.record, lane().film().size());
   measurement.mean_rays = mean_rays(measurement.record, lane().film().size());
-  if (!metrics.empty()) {
+  if (!plan.metrics.empty()) {
     const RadianceImage image = lane().film().image();
-    for (const MetricId id : metrics) {
+    const std::size_t count =
+        is_end ? plan.metrics.size() : std::min(plan.metrics.size(), plan.metrics_on_the_way);
+    for (const MetricId id : std::span(plan.metrics).first(count)) {
       measurement.values.push_back(metric(id).compute(image, *reference_));
+      if (id == MetricId::relmse) {
+        measurement.relmse_top = relmse_top_share(image, *reference_);
+      }
     }
     measurement.energy = energy_error(image, *reference_);
+    if (plan.each_picture) {
+      plan.each_picture(lane().pass(), image);
+    }
   }
   return measurement;
 }
@@ -75,7 +84,7 @@ std::optional<std::vector<Measurement>> Experiment::run(
   const bool ended = run_lab(lab_, stop, [&] {
     const double done = plan.stop.progress(lane(), reference_.get());
     if (done >= 1.0 || is_measured(plan, lane().pass())) {
-      measurements.push_back(measure(plan.metrics));
+      measurements.push_back(measure(plan, done >= 1.0));
     }
     if (progress) {
       progress(std::min(done, 1.0));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,6 +23,8 @@ struct Measurement {
   double mean_rays = 0.0;      ///< a pixel
   std::vector<double> values;  ///< of the metrics that were asked for, in their order
   double energy = 0.0;         ///< energy_error(), where any metric was asked for
+  /// relmse_top_share(), where relMSE was asked for.
+  double relmse_top = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What it took: a pixel, but for seconds.
@@ -35,8 +38,12 @@ struct RunPlan {
   LaneSettings settings;
   StopConditions stop;                 ///< the run ends after the first pass where one holds
   std::vector<MetricId> metrics = {};  ///< none: only what a run costs is measured
+  /// Before the end it is measured in so many of them alone, the first ones.
+  std::size_t metrics_on_the_way = std::numeric_limits<std::size_t>::max();
   MeasureAt measure_at = MeasureAt::end;
   std::vector<std::uint32_t> also_at = {};  ///< further passes where it is measured, rising
+  /// Called with the picture whenever it is measured; may be empty.
+  std::function<void(std::uint32_t pass, const RadianceImage& image)> each_picture = {};
 };
 
 /// Runs lanes one after the other over one store of samples, so that a run costs little but for the
@@ -70,7 +77,7 @@ class Experiment {
   std::uint64_t samples_used() const { return samples_used_; }
 
  private:
-  Measurement measure(std::span<const MetricId> metrics) const;
+  Measurement measure(const RunPlan& plan, bool is_end) const;
 
   std::shared_ptr<const RadianceImage> reference_;
   SampleSource source_;

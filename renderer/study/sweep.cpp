@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
-#include "renderer/base/interval.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/study/calibrate.h"
 
@@ -98,11 +97,61 @@ BaselinePlan baseline_plan(std::span<const Measurement> passes, std::span<const 
   return plan;
 }
 
+/// Sums of the pictures of a line, seed by seed.
+struct LineSums {
+  std::map<std::uint32_t, ErrorSums> way;  // by pass
+  ErrorSums end;
+
+  /// Those of passes that a seed was not measured after, which nobody will ask for.
+  void forget_incomplete(std::size_t seeds) {
+    std::erase_if(way, [&](const auto& each) { return each.second.pictures() < seeds; });
+  }
+  SweepParts parts() const {
+    SweepParts parts;
+    for (const auto& [pass, sums] : way) {
+      parts.way[pass] = sums.parts();
+    }
+    parts.end = end.parts();
+    return parts;
+  }
+};
+
+/// What a sweep adds up over its seeds.
+struct SweepSums {
+  const Metric* metric = nullptr;  // null: nothing
+  bool on_the_way = true;          // not at ends alone
+  std::vector<LineSums> lines;
+  LineSums uniform;
+};
+
+/// Bytes that the sums of all lines take, about: each is measured after some ten passes, and
+/// uniform sampling on both sides of each.
+std::size_t bytes_of_sums(const Metric& metric, std::size_t lines, const RadianceImage& reference) {
+  constexpr std::size_t passes = 12;
+  return lines * passes * sizeof(float) * metric.errors(reference, reference).size();
+}
+
+/// Has a run's pictures added to those of its line.
+void add_to(LineSums& line, const SweepSums& sums, const Experiment& experiment, RunPlan& run) {
+  if (sums.metric != nullptr && sums.on_the_way) {
+    run.each_picture = [&line, metric = sums.metric, &experiment](std::uint32_t pass,
+                                                                  const RadianceImage& image) {
+      line.way[pass].add(metric->errors(image, *experiment.reference()));
+    };
+  }
+}
+
+void add_end(LineSums& line, const SweepSums& sums, const Experiment& experiment) {
+  if (sums.metric != nullptr) {
+    line.end.add(sums.metric->errors(experiment.lane().film().image(), *experiment.reference()));
+  }
+}
+
 /// What uniform sampling gives for what other runs took; nothing if stopped.
 std::optional<std::vector<Measurement>> run_baseline(Experiment& experiment, const SweepPlan& plan,
                                                      std::span<const Measurement> ends,
                                                      std::span<const Measurement> first_seed,
-                                                     std::stop_token stop,
+                                                     std::stop_token stop, SweepSums& sums,
                                                      const std::function<void(double)>& tell) {
   RunPlan run{.settings = default_settings(EstimatorId::uniform),
               .stop = {},
@@ -132,7 +181,12 @@ std::optional<std::vector<Measurement>> run_baseline(Experiment& experiment, con
   run.metrics = plan.metrics;
   run.measure_at = MeasureAt::powers_of_two;
   run.also_at = std::move(found.measured);
-  return experiment.run(run, stop, tell);
+  add_to(sums.uniform, sums, experiment, run);
+  auto measured = experiment.run(run, stop, tell);
+  if (measured) {
+    add_end(sums.uniform, sums, experiment);
+  }
+  return measured;
 }
 
 std::vector<float> true_squared_error(const Experiment& experiment) {
@@ -141,41 +195,56 @@ std::vector<float> true_squared_error(const Experiment& experiment) {
   return {map.pixels().begin(), map.pixels().end()};
 }
 
-/// Of a lane without thresholds there is nothing to scale.
-std::vector<double> lane_factors(const SweepPlan& plan, const LaneSettings& settings) {
-  return estimator(settings.estimator).channels > 0 ? sweep_factors(plan) : std::vector{1.0};
+/// Passes that a trajectory is drawn through, beside powers of two.
+std::vector<std::uint32_t> passes_between() {
+  std::vector<std::uint32_t> passes;
+  for (std::uint32_t pass = 3; pass < (1u << 20); pass *= 2) {
+    passes.push_back(pass);
+  }
+  return passes;
+}
+
+std::string name_of(const SweepLane& lane) {
+  return fmt::format("{}{} x {:.3g}", estimator(lane.settings.estimator).id,
+                     lane.twin ? " unbiased" : "", lane.factor);
 }
 
 /// One seed's runs; false if stopped.
 bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
-              std::stop_token stop, SweepProgress& progress, SweepResult& result) {
+              std::stop_token stop, SweepProgress& progress, SweepSums& sums, SweepResult& result) {
   const auto tell = [&](double of_run) { progress.update(of_run); };
-  std::size_t index = 0;
+  const std::vector<SweepLane> lanes = sweep_lanes(plan);
   std::vector<Measurement> ends;
   const std::vector<float> oracle = oracle_weights(experiment.first_samples(oracle_spp));
-  for (const LaneSettings& settings : plan.lane_settings) {
-    for (const double factor : lane_factors(plan, settings)) {
-      progress.begin_run(index++, fmt::format("seed {}, {} x {:.3g}", seed,
-                                              estimator(settings.estimator).id, factor));
-      SweepRun run{.settings = scaled_thresholds(settings, factor), .factor = factor, .seed = seed};
-      const auto measured = experiment.run(
-          {.settings = run.settings, .stop = plan.stop, .metrics = plan.metrics}, stop, tell);
-      if (!measured) {
-        return false;
-      }
-      run.end = measured->back();
-      ends.push_back(run.end);
-      keep_most(result.rejected, rejected_of(experiment.lane(), seed));
-      keep_most(result.capped, capped_pixels(experiment.lane()));
-      run.quality = quality_of(experiment.lane(), true_squared_error(experiment));
-      run.oracle_distance = share_distance(experiment.lane().taken(), oracle);
-      result.runs.push_back(std::move(run));
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    progress.begin_run(i, fmt::format("seed {}, {}", seed, name_of(lanes[i])));
+    SweepRun run{.lane = lanes[i], .seed = seed};
+    RunPlan planned{.settings = run.lane.settings,
+                    .stop = plan.stop,
+                    .metrics = plan.metrics,
+                    .metrics_on_the_way = 1,
+                    .measure_at = MeasureAt::powers_of_two,
+                    .also_at = passes_between()};
+    add_to(sums.lines[i], sums, experiment, planned);
+    auto measured = experiment.run(planned, stop, tell);
+    if (!measured) {
+      return false;
     }
+    add_end(sums.lines[i], sums, experiment);
+    run.end = measured->back();
+    measured->pop_back();
+    run.way = std::move(*measured);
+    ends.push_back(run.end);
+    keep_most(result.rejected, rejected_of(experiment.lane(), seed));
+    keep_most(result.capped, capped_pixels(experiment.lane()));
+    run.quality = quality_of(experiment.lane(), true_squared_error(experiment));
+    run.oracle_distance = share_distance(experiment.lane().taken(), oracle);
+    result.runs.push_back(std::move(run));
   }
-  progress.begin_run(index, fmt::format("seed {}, uniform", seed));
+  progress.begin_run(lanes.size(), fmt::format("seed {}, uniform", seed));
   const std::span<const Measurement> first_seed =
       result.uniform.empty() ? std::span<const Measurement>() : result.uniform.front();
-  auto uniform = run_baseline(experiment, plan, ends, first_seed, stop, tell);
+  auto uniform = run_baseline(experiment, plan, ends, first_seed, stop, sums, tell);
   if (!uniform) {
     return false;
   }
@@ -184,77 +253,7 @@ bool run_seed(Experiment& experiment, std::uint64_t seed, const SweepPlan& plan,
   return true;
 }
 
-/// The median of what each of some runs says.
-template <class Runs, class Number>
-double median_of(const Runs& runs, const Number& number) {
-  std::vector<double> values;
-  values.reserve(runs.size());
-  for (const auto& run : runs) {
-    values.push_back(number(run));
-  }
-  return median(std::move(values));
-}
-
-template <class Runs, class Number>
-void set_error(SweepPoint& point, const Runs& runs, const Number& error) {
-  point.error = median_of(runs, error);
-  point.error_low = std::numeric_limits<double>::infinity();
-  point.error_high = -point.error_low;
-  for (const auto& run : runs) {
-    point.error_low = std::min(point.error_low, error(run));
-    point.error_high = std::max(point.error_high, error(run));
-  }
-}
-
-/// Of one metric of a run.
-ErrorCurve error_over(Effort effort, std::span<const Measurement> run, std::size_t metric) {
-  std::vector<ErrorCurve::Point> points;
-  for (const Measurement& measurement : run) {
-    points.push_back({effort_of(effort, measurement), measurement.values[metric]});
-  }
-  return ErrorCurve(std::move(points));
-}
-
-/// SweepPoint::against_uniform of the runs of a point.
-double against_uniform(std::span<const SweepRun> seeds, const SweepResult& result, Effort effort,
-                       std::size_t metric) {
-  return median_of(seeds, [&](const SweepRun& run) {
-    const std::span baseline = result.uniform[std::size_t(run.seed - result.first_seed)];
-    return run.end.values[metric] /
-           error_over(effort, baseline, metric).error_at(effort_of(effort, run.end));
-  });
-}
-
 }  // namespace
-
-SampleWorld sample_world(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings,
-                         const LabOptions& lab, std::shared_ptr<const RadianceImage> reference) {
-  SampleWorld world;
-  world.first_seed = settings.seed;
-  world.width = settings.width;
-  world.height = settings.height;
-  world.lab = lab;
-  world.reference = std::move(reference);
-  const auto seeded = [settings](std::uint64_t seed) {
-    RenderSettings with_seed = settings;
-    with_seed.seed = seed;
-    return with_seed;
-  };
-  world.source = [scene, seeded](std::uint64_t seed) { return sample_source(scene, seeded(seed)); };
-  world.pilot = [scene, seeded](std::uint64_t seed) { return pilot_source(scene, seeded(seed)); };
-  return world;
-}
-
-LabOptions lab_options(const SampleWorld& world, std::uint64_t seed) {
-  LabOptions options = world.lab;
-  options.reference = world.reference;
-  options.pilot_source = world.pilot ? world.pilot(seed) : SampleSource();
-  return options;
-}
-
-Experiment make_experiment(const SampleWorld& world, std::uint64_t seed) {
-  return {world.source(seed), world.width, world.height, lab_options(world, seed), world.reference};
-}
 
 std::vector<double> sweep_factors(const SweepPlan& plan) {
   std::vector<double> factors;
@@ -275,95 +274,70 @@ std::vector<double> sweep_factors(const SweepPlan& plan) {
   return factors;
 }
 
+std::vector<SweepLane> sweep_lanes(const SweepPlan& plan) {
+  std::vector<SweepLane> lanes;
+  for (const LaneSettings& settings : plan.lane_settings) {
+    // Of a lane without thresholds there is nothing to scale, and nothing that a pilot decides.
+    const bool decides = estimator(settings.estimator).channels > 0;
+    const std::vector<double> factors = decides ? sweep_factors(plan) : std::vector{1.0};
+    for (const double factor : factors) {
+      lanes.push_back({scaled_thresholds(settings, factor), factor, false});
+    }
+    if (!decides || settings.mode == SampleMode::unbiased) {
+      continue;
+    }
+    for (const double factor : factors) {
+      if (plan.twins == Twins::at_all || (plan.twins == Twins::at_defaults && factor == 1.0)) {
+        lanes.push_back({scaled_thresholds(settings, factor), factor, true});
+        lanes.back().settings.mode = SampleMode::unbiased;
+      }
+    }
+  }
+  return lanes;
+}
+
+const Metric* parts_metric(const SweepPlan& plan) {
+  for (const MetricId id : plan.metrics) {
+    if (metric(id).errors != nullptr) {
+      return &metric(id);
+    }
+  }
+  return nullptr;
+}
+
 std::optional<SweepResult> run_sweep(
     const SampleWorld& world, const SweepPlan& plan, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress) {
   SweepResult result;
   result.first_seed = world.first_seed;
-  std::size_t runs = 1;
-  for (const LaneSettings& settings : plan.lane_settings) {
-    runs += lane_factors(plan, settings).size();
+  SweepSums sums;
+  sums.metric = parts_metric(plan);
+  sums.lines.resize(sweep_lanes(plan).size());
+  if (sums.metric != nullptr) {
+    result.bytes_of_parts = bytes_of_sums(*sums.metric, sums.lines.size() + 1, *world.reference);
+    sums.on_the_way = result.bytes_of_parts <= world.lab.memory;
+    result.parts_at_ends_only = !sums.on_the_way;
   }
-  SweepProgress told(std::size_t(plan.seeds), runs, progress);
+  SweepProgress told(std::size_t(plan.seeds), sums.lines.size() + 1, progress);
   for (std::uint32_t k = 0; k < plan.seeds; ++k) {
     told.begin_seed(k);
     const std::uint64_t seed = world.first_seed + k;
     // Each seed has a store of its own, gone with it: memory does not grow with seeds.
     Experiment experiment = make_experiment(world, seed);
-    if (!run_seed(experiment, seed, plan, stop, told, result)) {
+    if (!run_seed(experiment, seed, plan, stop, told, sums, result)) {
       return std::nullopt;
     }
+    std::ranges::for_each(sums.lines, [&](LineSums& line) { line.forget_incomplete(k + 1); });
+    sums.uniform.forget_incomplete(k + 1);
     result.samples_traced += experiment.store().traced();
     result.samples_used += experiment.samples_used();
     result.partial |= experiment.store().partial();
   }
+  if (sums.metric != nullptr) {
+    std::ranges::transform(sums.lines, std::back_inserter(result.parts), &LineSums::parts);
+    result.uniform_parts = sums.uniform.parts();
+  }
   return result;
-}
-
-std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan& plan,
-                                     std::size_t metric) {
-  const bool is_ratio = quartet::metric(plan.metrics[metric]).scale != MetricScale::decibels;
-  const std::size_t a_seed = result.runs.size() / result.uniform.size();
-  std::vector<SweepPoint> points;
-  for (std::size_t i = 0; i < a_seed; ++i) {
-    std::vector<SweepRun> seeds;
-    for (std::size_t k = 0; k < result.uniform.size(); ++k) {
-      seeds.push_back(result.runs[k * a_seed + i]);
-    }
-    SweepPoint point{.settings = seeds.front().settings, .factor = seeds.front().factor};
-    point.seconds = median_of(seeds, [](const SweepRun& run) { return run.end.record.seconds; });
-    point.mean_spp = median_of(seeds, [](const SweepRun& run) { return run.end.mean_spp; });
-    point.mean_rays = median_of(seeds, [](const SweepRun& run) { return run.end.mean_rays; });
-    set_error(point, seeds, [&](const SweepRun& run) { return run.end.values[metric]; });
-    point.energy = median_of(seeds, [](const SweepRun& run) { return run.end.energy; });
-    for (const EffortRow& effort : efforts()) {
-      point.against_uniform[std::size_t(effort.key)] =
-          is_ratio ? against_uniform(seeds, result, effort.key, metric)
-                   : std::numeric_limits<double>::quiet_NaN();
-    }
-    points.push_back(point);
-  }
-  return points;
-}
-
-std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t metric) {
-  std::vector<SweepPoint> points;
-  for (const Measurement& first : result.uniform.front()) {
-    std::vector<Measurement> seeds;
-    for (const std::vector<Measurement>& run : result.uniform) {
-      const auto same = std::ranges::find(run, first.record.pass,
-                                          [](const Measurement& m) { return m.record.pass; });
-      if (same != run.end()) {
-        seeds.push_back(*same);
-      }
-    }
-    if (seeds.size() < result.uniform.size()) {
-      continue;
-    }
-    SweepPoint point{.settings = default_settings(EstimatorId::uniform)};
-    point.seconds = median_of(seeds, [](const Measurement& m) { return m.record.seconds; });
-    point.mean_spp = median_of(seeds, [](const Measurement& m) { return m.mean_spp; });
-    point.mean_rays = median_of(seeds, [](const Measurement& m) { return m.mean_rays; });
-    set_error(point, seeds, [&](const Measurement& m) { return m.values[metric]; });
-    point.energy = median_of(seeds, [](const Measurement& m) { return m.energy; });
-    point.against_uniform.fill(1.0);
-    points.push_back(point);
-  }
-  return points;
-}
-
-std::vector<SweepPoint> pareto_front(std::vector<SweepPoint> points, bool higher_is_better) {
-  const auto badness = [&](const SweepPoint& p) { return higher_is_better ? -p.error : p.error; };
-  std::ranges::sort(points, [&](const SweepPoint& a, const SweepPoint& b) {
-    return std::pair(a.seconds, badness(a)) < std::pair(b.seconds, badness(b));
-  });
-  std::vector<SweepPoint> front;
-  for (const SweepPoint& point : points) {
-    if (front.empty() || badness(point) < badness(front.back())) {
-      front.push_back(point);
-    }
-  }
-  return front;
 }
 
 }  // namespace quartet

@@ -1,74 +1,84 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <map>
 #include <optional>
-#include <span>
 #include <stop_token>
 #include <string_view>
 #include <vector>
 
 #include "renderer/measure/capped.h"
-#include "renderer/measure/error_curve.h"
+#include "renderer/measure/error_parts.h"
 #include "renderer/measure/quality.h"
 #include "renderer/measure/rejected_count.h"
-#include "renderer/study/experiment.h"
+#include "renderer/study/sample_world.h"
 
 namespace quartet {
 
-/// What experiments draw their samples from, seed by seed.
-struct SampleWorld {
-  std::function<SampleSource(std::uint64_t seed)> source;
-  std::function<SampleSource(std::uint64_t seed)>
-      pilot;                     ///< for SampleMode::unbiased; may be empty
-  std::uint64_t first_seed = 0;  ///< then the ones that follow
-  int width = 0;
-  int height = 0;
-  LabOptions lab;
-  std::shared_ptr<const RadianceImage> reference;  ///< as large as the picture
-};
-
-/// The options of a lab that draws from it with a seed: with its pilot source, and the reference
-/// for estimators that look at it.
-LabOptions lab_options(const SampleWorld& world, std::uint64_t seed);
-/// Runs over samples of one seed, none of which is traced yet.
-Experiment make_experiment(const SampleWorld& world, std::uint64_t seed);
-
-/// The tracer, with the settings but for their seed, which is the first one.
-SampleWorld sample_world(std::shared_ptr<const TraceScene> scene, const RenderSettings& settings,
-                         const LabOptions& lab, std::shared_ptr<const RadianceImage> reference);
+/// Which lanes of a sweep are also run in mode unbiased, with the same thresholds: their twins. A
+/// twin's pilot is charged to its samples, rays and seconds.
+enum class Twins { none, at_defaults, at_all };
 
 /// Every lane at a geometric range of thresholds, if it has any, with several seeds.
 struct SweepPlan {
-  /// With their default thresholds; of a sweep's estimators.
+  /// With their default thresholds; of a sweep's estimators, each once.
   std::vector<LaneSettings> lane_settings;
   int thresholds = 8;
   double low = 0.1;  ///< factor on the default thresholds
   double high = 10.0;
+  Twins twins = Twins::at_all;
   std::uint32_t seeds = 3;
   /// The end of each run. The uniform baseline goes on until it has taken more samples and rays
   /// than the dearest run, so that all are compared with what it really gives for the same.
   StopConditions stop;
+  /// The first one is what trajectories are measured in; the others only at the ends.
   std::vector<MetricId> metrics{default_metric};
 };
 
-/// One run of a sweep.
-struct SweepRun {
+/// One line of a sweep: a lane at fixed thresholds.
+struct SweepLane {
   LaneSettings settings;
   double factor = 1.0;  ///< on the default thresholds; 1 where there are none
+  bool twin = false;    ///< of the lane before it that is not
+
+  bool operator==(const SweepLane&) const = default;
+};
+
+/// The factors of a sweep, rising, with 1, the default, among them.
+std::vector<double> sweep_factors(const SweepPlan& plan);
+/// All lines, lane by lane: those of its thresholds, rising, then those of its twins.
+std::vector<SweepLane> sweep_lanes(const SweepPlan& plan);
+
+/// One line with one seed.
+struct SweepRun {
+  SweepLane lane;
   std::uint64_t seed = 0;
+  /// After some passes on the way, rising: powers of two and what is between them. Measured in the
+  /// plan's first metric alone.
+  std::vector<Measurement> way = {};
   Measurement end = {};
   EstimatorQuality quality = {};
   double oracle_distance = 0.0;  ///< share_distance() of its samples and the oracle's weights
 };
 
+/// Of all seeds of a line, in parts_metric().
+struct SweepParts {
+  std::map<std::uint32_t, ErrorParts> way;  ///< after passes that all seeds were measured after
+  ErrorParts end;
+};
+
 struct SweepResult {
-  std::vector<SweepRun> runs;  ///< seed by seed, lane by lane, by rising thresholds
+  std::vector<SweepRun> runs;  ///< seed by seed, in the order of sweep_lanes()
   /// The baseline, one run a seed, at powers of two of its passes, at those next to where other
   /// runs ended, and at its end.
   std::vector<std::vector<Measurement>> uniform;
+  std::vector<SweepParts> parts;  ///< of each line; empty if no metric is a mean of squares
+  SweepParts uniform_parts;
+  /// What the pictures that the parts are made of take in memory, and whether that was more than
+  /// LabOptions::memory, so that there are none on the way.
+  std::size_t bytes_of_parts = 0;
+  bool parts_at_ends_only = false;
   std::uint64_t first_seed = 0;
   std::uint64_t samples_traced = 0;
   std::uint64_t samples_used = 0;  ///< by all runs together
@@ -77,39 +87,13 @@ struct SweepResult {
   CappedPixels capped;             ///< of the run that has most
 };
 
-/// The factors of a sweep, rising, with 1, the default, among them.
-std::vector<double> sweep_factors(const SweepPlan& plan);
+/// What is split into bias² and variance: the plan's first metric, or where that is no mean of
+/// squares the first of the others that is; null if none is.
+const Metric* parts_metric(const SweepPlan& plan);
 
 /// Nothing if `stop` ended it. `progress` is told how much is done and what is at work.
 std::optional<SweepResult> run_sweep(const SampleWorld& world, const SweepPlan& plan,
                                      std::stop_token stop,
                                      const std::function<void(double, std::string_view)>& progress);
-
-/// One point of a curve: the runs of one lane and factor with all seeds.
-struct SweepPoint {
-  LaneSettings settings;
-  double factor = 1.0;
-  double seconds = 0.0;    ///< median
-  double mean_spp = 0.0;   ///< median
-  double mean_rays = 0.0;  ///< median, a pixel
-  double error = 0.0;      ///< median
-  double error_low = 0.0;
-  double error_high = 0.0;
-  double energy = 0.0;  ///< median of energy_error()
-  /// By Effort: median over the seeds of the error over that of uniform sampling with the same seed
-  /// at the same effort, between two of its passes: below 1 it beats uniform. NaN for metrics in
-  /// decibels, for rays where nothing is traced, and where uniform took fewer seconds.
-  std::array<double, 3> against_uniform = {};
-};
-
-/// Points of all lanes, in the order of the plan, by rising thresholds.
-std::vector<SweepPoint> sweep_points(const SweepResult& result, const SweepPlan& plan,
-                                     std::size_t metric);
-/// Those of the baseline, by rising passes: the ones at which all seeds were measured.
-std::vector<SweepPoint> uniform_points(const SweepResult& result, std::size_t metric);
-
-/// Those that no other point beats in both time and error, by rising time: the Pareto front.
-/// `higher_is_better` speaks of the error.
-std::vector<SweepPoint> pareto_front(std::vector<SweepPoint> points, bool higher_is_better);
 
 }  // namespace quartet

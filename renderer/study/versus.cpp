@@ -73,48 +73,13 @@ void compare(const VersusPlan& plan, double goal, VersusSeed& seed) {
   }
 }
 
-/// Of pictures that come one a seed.
-class PictureSums {
- public:
-  void add(const RadianceImage& image) {
-    sums_.resize(image.size());
-    squares_.resize(image.size());
-    for (std::size_t i = 0; i < image.size(); ++i) {
-      const glm::dvec3 x(image.pixels()[i]);
-      sums_[i] += x;
-      squares_[i] += x * x;
-    }
-    ++count_;
-  }
-
-  ErrorParts parts(const RadianceImage& reference) const {
-    const double n = count_;
-    ErrorParts parts;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const glm::dvec3 mean = sums_[i] / n;
-      const glm::dvec3 off = mean - glm::dvec3(reference.pixels()[i]);
-      const glm::dvec3 variance = (squares_[i] - n * mean * mean) / (n - 1.0);
-      parts.variance += dot(variance, glm::dvec3(1.0 / 3.0));
-      parts.squared_bias += dot(off * off - variance / n, glm::dvec3(1.0 / 3.0));
-    }
-    parts.variance /= double(sums_.size());
-    parts.squared_bias /= double(sums_.size());
-    return parts;
-  }
-
- private:
-  std::vector<glm::dvec3> sums_;
-  std::vector<glm::dvec3> squares_;
-  double count_ = 0.0;
-};
-
 }  // namespace
 
 std::optional<VersusResult> run_versus(
     const SampleWorld& world, const VersusPlan& plan, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress) {
   VersusResult result;
-  std::array<PictureSums, 2> sums;
+  std::array<ErrorSums, 2> sums;
   for (std::uint32_t k = 0; k < plan.seeds; ++k) {
     const std::uint64_t seed = world.first_seed + k;
     Experiment experiment = make_experiment(world, seed);
@@ -143,7 +108,8 @@ std::optional<VersusResult> run_versus(
         return std::nullopt;
       }
       measured.runs[lane].passes = std::move(*passes);
-      sums[lane].add(experiment.lane().film().image());
+      sums[lane].add(
+          metric(MetricId::mse).errors(experiment.lane().film().image(), *world.reference));
       keep_most(result.rejected, rejected_of(experiment.lane(), seed));
       keep_most(result.capped, capped_pixels(experiment.lane()));
     }
@@ -152,7 +118,7 @@ std::optional<VersusResult> run_versus(
     result.seeds.push_back(std::move(measured));
   }
   for (std::size_t lane = 0; lane < sums.size(); ++lane) {
-    result.parts[lane] = sums[lane].parts(*world.reference);
+    result.parts[lane] = sums[lane].parts();
   }
   return result;
 }
@@ -166,11 +132,10 @@ std::vector<double> over_seeds(const VersusResult& result,
 }
 
 Interval error_ratio(const VersusResult& result, std::size_t metric, double p) {
-  const auto logarithm = [&](const VersusSeed& seed) {
-    return std::log(seed.runs[0].errors[metric] / seed.runs[1].errors[metric]);
+  const auto ratio = [&](const VersusSeed& seed) {
+    return seed.runs[0].errors[metric] / seed.runs[1].errors[metric];
   };
-  const Interval interval = mean_interval(over_seeds(result, logarithm), p);
-  return {std::exp(interval.mean), std::exp(interval.low), std::exp(interval.high)};
+  return geometric_interval(over_seeds(result, ratio), p);
 }
 
 Interval energy_of(const VersusResult& result, std::size_t lane, double p) {

@@ -11,8 +11,9 @@
 #include "renderer/adaptive/effort.h"
 #include "renderer/base/interval.h"
 #include "renderer/measure/capped.h"
+#include "renderer/measure/error_parts.h"
 #include "renderer/measure/rejected_count.h"
-#include "renderer/study/sweep.h"
+#include "renderer/study/sample_world.h"
 
 namespace quartet {
 
@@ -41,17 +42,9 @@ struct VersusSeed {
   double effort = 0.0;
 };
 
-/// The mean squared error of a lane's pictures at the ends of its runs, radiance².
-struct ErrorParts {
-  /// Of the mean picture, without the part that its own noise has in that. Noise of the reference
-  /// is in it: noise_floor() of MSE.
-  double squared_bias = 0.0;
-  double variance = 0.0;
-};
-
 struct VersusResult {
   std::vector<VersusSeed> seeds;
-  std::array<ErrorParts, 2> parts = {};  ///< NaN with one seed
+  std::array<ErrorParts, 2> parts = {};  ///< of MSE at the ends of the runs, radiance²
   bool partial = false;                  ///< memory was short: some samples were traced again
   RejectedCount rejected;
   CappedPixels capped;

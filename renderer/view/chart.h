@@ -34,15 +34,22 @@ struct Bar {
   Rgba8 color;
 };
 
+enum class MarkShape { dot, square, triangle, wedge, diamond, cross };
+
+enum class Dash { solid, dashed, dash_dot, dotted };
+
 /// A curve through points. Between them it is straight on the axes as they are spaced.
 struct Line {
-  std::string label;  ///< may be empty; else it stands in the legend
+  std::string label;  ///< may be empty; else it stands in the legend, or at the line's end
   Rgba8 color;
   std::vector<glm::dvec2> points;
-  bool dashed = false;
-  bool dots = false;   ///< a dot at each point: what was measured
-  float width = 1.0f;  ///< of ordinary lines
-  int id = -1;         ///< whose line it is, such as a lane's number; -1: nobody's
+  Dash dash = Dash::solid;
+  bool dots = false;                 ///< a mark at each point: what was measured
+  float width = 1.0f;                ///< of ordinary lines
+  int id = -1;                       ///< whose line it is, such as a lane's number; -1: nobody's
+  MarkShape shape = MarkShape::dot;  ///< of its marks
+  /// On paper its label stands beside the chart, joined to the last of its points that is seen.
+  bool label_at_end = false;
 };
 
 /// The area between two curves, such as a line's spread over seeds: that of the quadrilaterals
@@ -54,8 +61,6 @@ struct Band {
   std::vector<glm::dvec2> upper;  ///< as many points
 };
 
-enum class MarkShape { dot, diamond, cross };
-
 /// A single point, such as where on a curve the default threshold lies.
 struct PointMark {
   std::string label;  ///< may be empty; else it stands in the legend, once for all that share it
@@ -66,7 +71,7 @@ struct PointMark {
 
 /// A horizontal line across the whole chart, such as a noise floor.
 struct Level {
-  std::string label;  ///< what it is, with its value
+  std::string label;  ///< what it is, with its value; may be empty
   Rgba8 color;
   double value = 0.0;
 };

@@ -11,12 +11,12 @@
 #include "renderer/base/number_text.h"
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/metrics.h"
+#include "renderer/view/estimator_look.h"
 
 namespace quartet {
 namespace {
 
 constexpr Rgba8 text_color{200, 205, 212, 255};
-constexpr Rgba8 baseline_color{222, 226, 232, 255};
 constexpr Rgba8 floor_color{236, 110, 124, 255};
 
 /// Where a logarithmic chart can show them.
@@ -57,10 +57,13 @@ Axis vertical_axis(const Metric& row, const Extent& extent) {
              : linear_axis(std::floor(extent.low), std::ceil(extent.high), label, 5);
 }
 
-Line line_of(std::vector<glm::dvec2> points, Rgba8 color, std::string label, int id) {
+Line line_of(std::vector<glm::dvec2> points, EstimatorId estimator, int id) {
+  const EstimatorLook& look = look_of(estimator);
   Line line;
-  line.label = std::move(label);
-  line.color = color;
+  line.label = std::string(quartet::estimator(estimator).label);
+  line.color = look.screen;
+  line.dash = look.dash;
+  line.shape = look.shape;
   line.points = std::move(points);
   line.dots = line.points.size() <= 32;
   line.id = id;
@@ -85,13 +88,16 @@ Chart effort_chart(const Snapshot& snapshot, const EffortChart& what) {
     }
   };
   if (snapshot.baseline) {
-    add(line_of(curve_of(*snapshot.baseline, snapshot, what.effort), baseline_color, "uniform",
-                -1));
+    add(line_of(curve_of(*snapshot.baseline, snapshot, what.effort), EstimatorId::uniform, -1));
   }
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
-    add(line_of(curve_of(lane, snapshot, what.effort), what.colors[i % what.colors.size()],
-                std::string(estimator(lane.settings.estimator).label), int(i)));
+    const EstimatorId id = lane.settings.estimator;
+    Line line = line_of(curve_of(lane, snapshot, what.effort), id, int(i));
+    for (std::size_t before = 0; before < i; ++before) {
+      line.dash = snapshot.lanes[before].settings.estimator == id ? Dash::dotted : line.dash;
+    }
+    add(std::move(line));
   }
   if (chart.lines.empty()) {
     chart.x = log_axis(0.1, 10.0, std::string(effort_row(what.effort).label), 5);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "renderer/adaptive/effort.h"
@@ -12,11 +11,11 @@ namespace quartet {
 /// How far each lane has come against the reference and what uniform sampling does instead.
 struct EffortChart {
   Effort effort = Effort::seconds;
-  std::array<Rgba8, 4> colors;        ///< of the lanes; more lanes take them again
   std::optional<double> noise_floor;  ///< of the reference, in the snapshot's metric
 };
 
-/// Error over effort, log–log: a line a lane (id: its number), the uniform baseline as far as it
+/// Error over effort, log–log: a line a lane (id: its number) that looks as its estimator does
+/// everywhere, dotted if another lane before it has the same one, the uniform baseline as far as it
 /// was measured, and the noise floor.
 /// Of decibels the vertical axis is linear. Empty, with a text that says so, for a snapshot without
 /// errors.

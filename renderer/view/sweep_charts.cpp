@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "renderer/base/number_text.h"
+#include "renderer/view/estimator_look.h"
 
 namespace quartet {
 namespace {
 
-constexpr Rgba8 sweep_baseline_color{70, 70, 70};
 constexpr Rgba8 sweep_floor_color{150, 60, 60};
 constexpr Rgba8 front_color{222, 214, 190};
+constexpr Rgba8 zero_color{150, 150, 150};
 constexpr int ticks = 9;
+constexpr int panel_ticks = 5;
 
 struct Range {
   double min = std::numeric_limits<double>::infinity();
@@ -27,160 +29,299 @@ struct Range {
       max = std::max(max, value);
     }
   }
+  bool empty() const { return !(min <= max); }
 };
 
-using Cost = double SweepPoint::*;
+/// What is charted of a point; not finite, or not above 0 on a logarithmic axis: it is not there.
+using Quantity = std::function<double(const SweepPoint&)>;
 
-std::string error_label(const Metric& metric) {
-  return fmt::format("{}{}{}", metric.label, metric.unit.empty() ? "" : ", ", metric.unit);
+double error_of(const SweepPoint& point) {
+  return point.error.mean;
 }
 
-/// Over the points that lie inside of the other axis.
-Axis error_axis(const SweepSummary& summary, const Axis& costs, Cost cost) {
+std::string with_unit(std::string_view label, const Metric& metric) {
+  return fmt::format("{}{}{}", label, metric.unit.empty() ? "" : ", ", metric.unit);
+}
+
+std::string label_of(const SweepLane& lane) {
+  std::string label(estimator(lane.settings.estimator).label);
+  switch (lane.settings.estimator) {
+    case EstimatorId::oracle:
+      return label + ", knows the truth";
+    case EstimatorId::uniform_clamp:
+      return label + ", loses light";
+    default:
+      return label;
+  }
+}
+
+bool is_default(const SweepLane& lane) {
+  return lane.factor == 1.0;
+}
+
+/// A trajectory, as far as it can be charted.
+Line trajectory(const SweepLine& from, Effort effort, const Quantity& quantity, bool logarithmic) {
+  const EstimatorLook& look = look_of(from.lane.settings.estimator);
+  Line line{.label = label_of(from.lane),
+            .color = look.paper,
+            .points = {},
+            .dash = look.dash,
+            .dots = true,
+            .shape = look.shape,
+            .label_at_end = true};
+  // Where passes were measured for the sake of others, they say nothing of the line.
+  constexpr std::size_t most_marks = 20;
+  line.dots = from.points.size() <= most_marks;
+  for (const SweepPoint& point : from.points) {
+    const double value = quantity(point);
+    if (effort_of(effort, point) > 0.0 && std::isfinite(value) && (!logarithmic || value > 0.0)) {
+      line.points.emplace_back(effort_of(effort, point), value);
+    }
+  }
+  return line;
+}
+
+/// The lines of the overview: uniform sampling first, below the others.
+std::vector<const SweepLine*> overview_lines(const SweepSummary& summary) {
+  std::vector<const SweepLine*> lines{&summary.uniform};
+  for (const SweepLine& line : summary.lines) {
+    if (is_default(line.lane) && !line.lane.twin) {
+      lines.push_back(&line);
+    }
+  }
+  return lines;
+}
+
+/// Where the lanes are; uniform sampling, which goes on as far as the dearest twin, is cut there.
+/// The first passes of all are noise, and much of it: lines come in from the left.
+Axis effort_axis(const std::vector<const SweepLine*>& lines, Effort effort, int wanted) {
   Range range;
-  for (const auto* points : {&summary.points, &summary.uniform}) {
-    for (const SweepPoint& point : *points) {
-      const double position = axis_position(costs, point.*cost);
+  for (const SweepLine* line : lines) {
+    if (line->lane.settings.estimator == EstimatorId::uniform && lines.size() > 1) {
+      continue;
+    }
+    for (const SweepPoint& point : line->points) {
+      range.include(effort_of(effort, point));
+    }
+  }
+  constexpr double widest = 32.0;
+  return log_axis(std::max(0.9 * range.min, range.max / widest), 1.1 * range.max,
+                  std::string(effort_row(effort).label), wanted);
+}
+
+/// Over the points that lie inside of the other axis. `left_out`: the label of a line that does not
+/// count; it may be empty.
+Range seen_range(const Chart& chart, std::string_view left_out = "") {
+  Range range;
+  for (const Line& line : chart.lines) {
+    if (!left_out.empty() && line.label == left_out) {
+      continue;
+    }
+    for (const glm::dvec2& point : line.points) {
+      const double position = axis_position(chart.x, point.x);
       if (position >= 0.0 && position <= 1.0) {
-        range.include(point.error_low);
-        range.include(point.error_high);
+        range.include(point.y);
       }
     }
   }
-  const Metric& row = metric(summary.metric);
-  if (row.scale == MetricScale::decibels) {
-    return linear_axis(range.min, range.max, error_label(row), ticks);
-  }
-  // A noise floor far below all errors says that it is far below, wherever it is drawn.
-  constexpr double far = 20.0;
-  if (summary.noise_floor > range.min / far) {
-    range.include(summary.noise_floor);
-  }
-  return log_axis(0.9 * range.min, 1.1 * range.max, error_label(row), ticks);
+  return range;
 }
 
-glm::dvec2 place(const SweepPoint& point, Cost cost) {
-  return {point.*cost, point.error};
-}
-
-void add_baseline(const SweepSummary& summary, Cost cost, Chart& chart) {
-  Line line{.label = "uniform", .color = sweep_baseline_color, .points = {}, .dashed = true};
-  for (const SweepPoint& point : summary.uniform) {
-    line.points.push_back(place(point, cost));
-  }
-  chart.lines.push_back(std::move(line));
-}
-
-void add_lanes(const SweepSummary& summary, Cost cost, Chart& chart) {
-  std::size_t color = 0;
-  for (std::size_t begin = 0; begin < summary.points.size();) {
-    const EstimatorId id = summary.points[begin].settings.estimator;
-    std::size_t end = begin;
-    Line line{.label = std::string(estimator(id).label),
-              .color = paper_color(color++),
-              .points = {},
-              .dots = true};
-    Band band{.label = fmt::format("lowest to highest of {} seeds", summary.seeds),
-              .color = line.color,
-              .lower = {},
-              .upper = {}};
-    band.color.a = 45;
-    // By rising thresholds: a lane comes again only after its highest.
-    for (; end < summary.points.size() && summary.points[end].settings.estimator == id &&
-           (end == begin || summary.points[end].factor > summary.points[end - 1].factor);
-         ++end) {
-      const SweepPoint& point = summary.points[end];
-      line.points.push_back(place(point, cost));
-      band.lower.emplace_back(point.*cost, point.error_low);
-      band.upper.emplace_back(point.*cost, point.error_high);
-      if (point.factor == 1.0 && estimator(id).channels > 0) {
-        chart.marks.push_back(
-            {"default threshold", line.color, place(point, cost), MarkShape::diamond});
-      }
-    }
-    chart.lines.push_back(std::move(line));
-    if (summary.seeds > 1) {
-      chart.bands.push_back(std::move(band));
-    }
-    begin = end;
-  }
-}
-
-Chart sweep_chart(const SweepSummary& summary, Cost cost, std::string title, std::string x_label) {
-  Chart chart;
-  chart.title = std::move(title);
-  Range costs;
-  for (const SweepPoint& point : summary.points) {
-    costs.include(point.*cost);
-  }
-  // The baseline only around what it is compared with, and whole if there is nothing else.
-  for (const SweepPoint& point : summary.uniform) {
-    if (summary.points.empty() || &point == &summary.uniform.back()) {
-      costs.include(point.*cost);
-    }
-  }
-  chart.x = log_axis(0.9 * costs.min, 1.1 * costs.max, std::move(x_label), ticks);
-  chart.y = error_axis(summary, chart.x, cost);
-  if (cost == &SweepPoint::seconds) {
-    Line front{.label = "Pareto front", .color = front_color, .points = {}, .width = 5.0f};
-    for (const SweepPoint& point : summary.front) {
-      front.points.push_back(place(point, cost));
-    }
-    chart.lines.push_back(std::move(front));
-  }
-  add_baseline(summary, cost, chart);
-  add_lanes(summary, cost, chart);
+void add_floor(const SweepSummary& summary, Chart& chart) {
   if (summary.noise_floor > 0.0) {
     chart.levels.push_back(
         {fmt::format("noise floor of the reference, {}", format_number(summary.noise_floor)),
          sweep_floor_color, summary.noise_floor});
   }
+}
+
+Axis value_axis(const Range& seen, std::string label, bool logarithmic, int wanted) {
+  if (seen.empty()) {
+    return logarithmic ? log_axis(0.1, 1.0, std::move(label), wanted)
+                       : linear_axis(-1.0, 1.0, std::move(label), wanted);
+  }
+  return logarithmic ? log_axis(0.9 * seen.min, 1.1 * seen.max, std::move(label), wanted)
+                     : linear_axis(seen.min, seen.max, std::move(label), wanted);
+}
+
+Chart overview(const SweepSummary& summary, Effort effort, std::string title, std::string label,
+               bool logarithmic, const Quantity& quantity) {
+  Chart chart;
+  chart.title = std::move(title);
+  const std::vector<const SweepLine*> lines = overview_lines(summary);
+  chart.x = effort_axis(lines, effort, ticks);
+  for (const SweepLine* line : lines) {
+    chart.lines.push_back(trajectory(*line, effort, quantity, logarithmic));
+  }
+  chart.y = value_axis(seen_range(chart), std::move(label), logarithmic, ticks);
   return chart;
+}
+
+/// With the numbers at the ends. What is clamped is so dark that all others would lie on one line
+/// if it were in the picture.
+Chart energy_chart(const SweepSummary& summary, Effort effort) {
+  const std::string label = "energy: mean luminance over the reference's, less 1, %";
+  Chart chart = overview(summary, effort, "Light lost or gained", label, false,
+                         [](const SweepPoint& p) { return 100.0 * p.energy.mean; });
+  Range seen =
+      seen_range(chart, label_of({.settings = default_settings(EstimatorId::uniform_clamp)}));
+  seen.include(0.0);
+  const double margin = 0.05 * (seen.max - seen.min);
+  chart.y = linear_axis(seen.min - margin, seen.max + margin, label, ticks);
+  chart.levels.push_back({"", zero_color, 0.0});
+  for (Line& line : chart.lines) {
+    const auto last =
+        std::find_if(line.points.rbegin(), line.points.rend(),
+                     [&](const auto& point) { return axis_position(chart.x, point.x) <= 1.0; });
+    if (last != line.points.rend()) {
+      line.label += fmt::format(" {:+.1f} %", last->y);
+    }
+  }
+  return chart;
+}
+
+Line front_line(const SweepSummary& summary, Effort effort) {
+  Line front{.label = "best of all that was measured, but for the oracle",
+             .color = front_color,
+             .points = {},
+             .width = 5.0f};
+  for (const SweepPoint& point : front_of(summary, effort)) {
+    front.points.emplace_back(effort_of(effort, point), error_of(point));
+  }
+  return front;
+}
+
+std::string factor_text(const SweepLane& lane) {
+  return fmt::format("× {:.2g}{}", lane.factor, lane.twin ? ", unbiased" : "");
+}
+
+Band interval_band(const SweepLine& from, Effort effort, std::uint32_t seeds) {
+  Band band{.label = fmt::format("{:g} % interval over {} seeds", 100.0 * sweep_confidence, seeds),
+            .color = look_of(from.lane.settings.estimator).paper,
+            .lower = {},
+            .upper = {}};
+  band.color.a = 40;
+  for (const SweepPoint& point : from.points) {
+    band.lower.emplace_back(effort_of(effort, point), point.error.low);
+    band.upper.emplace_back(effort_of(effort, point), point.error.high);
+  }
+  return band;
+}
+
+/// The lines of one estimator's small chart: its thresholds, with labels as many as can be read,
+/// and its twin at the default ones.
+void add_thresholds(const SweepSummary& summary, EstimatorId id, Effort effort, bool logarithmic,
+                    Chart& chart) {
+  constexpr std::size_t readable = 9;
+  std::vector<const SweepLine*> own;
+  for (const SweepLine& line : summary.lines) {
+    if (line.lane.settings.estimator == id && (!line.lane.twin || is_default(line.lane))) {
+      own.push_back(&line);
+    }
+  }
+  const std::size_t step = (own.size() + readable - 1) / readable;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    Line line = trajectory(*own[i], effort, error_of, logarithmic);
+    const bool usual = is_default(own[i]->lane);
+    if (usual && !own[i]->lane.twin && summary.seeds > 1) {
+      chart.bands.push_back(interval_band(*own[i], effort, summary.seeds));
+    }
+    line.label = i % step == 0 || usual ? factor_text(own[i]->lane) : std::string();
+    line.dash = own[i]->lane.twin ? Dash::dotted : Dash::solid;
+    line.dots = usual;
+    line.width = usual ? 1.2f : 0.6f;
+    chart.lines.push_back(std::move(line));
+  }
+  if (own.size() == 1) {
+    chart.lines.back().label.clear();  // nothing to tell apart
+  }
 }
 
 }  // namespace
 
-SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::size_t metric,
-                       double noise_floor) {
-  SweepSummary summary;
-  summary.points = sweep_points(result, plan, metric);
-  summary.uniform = uniform_points(result, metric);
-  std::vector<SweepPoint> all = summary.points;
-  all.insert(all.end(), summary.uniform.begin(), summary.uniform.end());
-  summary.metric = plan.metrics[metric];
-  summary.front = pareto_front(std::move(all), quartet::metric(summary.metric).higher_is_better);
-  summary.seeds = plan.seeds;
-  summary.noise_floor = noise_floor;
-  return summary;
-}
-
-std::vector<Chart> sweep_charts(const SweepSummary& summary) {
-  std::vector<Chart> charts{sweep_chart(summary, &SweepPoint::seconds, "Error against time",
-                                        "as-if-alone time, seconds")};
-  // Samples that are drawn from a distribution take no rays.
-  if (summary.uniform.back().mean_rays > 0.0) {
-    charts.push_back(
-        sweep_chart(summary, &SweepPoint::mean_rays, "Error against rays", "mean rays per pixel"));
+std::vector<Chart> overview_charts(const SweepSummary& summary, Effort effort) {
+  const Metric& row = metric(summary.metric);
+  const bool logarithmic = row.scale != MetricScale::decibels;
+  std::vector<Chart> charts;
+  charts.push_back(
+      overview(summary, effort, "Error", with_unit(row.label, row), logarithmic, error_of));
+  Chart& errors = charts.back();
+  errors.lines.insert(errors.lines.begin(), front_line(summary, effort));
+  // A noise floor far below all errors says that it is far below, wherever it is drawn.
+  constexpr double far = 20.0;
+  Range seen = seen_range(errors);
+  if (logarithmic && summary.noise_floor > seen.min / far) {
+    seen.include(summary.noise_floor);
   }
-  charts.push_back(sweep_chart(summary, &SweepPoint::mean_spp, "Error against samples",
-                               "mean samples per pixel"));
+  errors.y = value_axis(seen, with_unit(row.label, row), logarithmic, ticks);
+  add_floor(summary, errors);
+  charts.push_back(energy_chart(summary, effort));
+  if (summary.parts_metric == nullptr || summary.seeds < 2) {
+    return charts;
+  }
+  const std::string of =
+      with_unit(fmt::format("of {}", summary.parts_metric->label), *summary.parts_metric);
+  charts.push_back(overview(summary, effort, "Bias²", of, true,
+                            [](const SweepPoint& p) { return p.parts.squared_bias; }));
+  charts.push_back(overview(summary, effort, "Variance", of, true,
+                            [](const SweepPoint& p) { return p.parts.variance; }));
+  // On one axis, so that the larger part is seen to be the larger one.
+  Range both = seen_range(charts[2]);
+  const Range variances = seen_range(charts[3]);
+  both.include(variances.min);
+  both.include(variances.max);
+  charts[2].y = charts[3].y = value_axis(both, of, true, ticks);
+  if (summary.parts_metric->key == summary.metric) {
+    add_floor(summary, charts[2]);
+  }
   return charts;
 }
 
-Chart calibration_chart(const SweepResult& result) {
-  Chart chart;
-  chart.title = "True error against estimated error";
+std::vector<Chart> threshold_charts(const SweepSummary& summary, Effort effort) {
+  const Metric& row = metric(summary.metric);
+  const bool logarithmic = row.scale != MetricScale::decibels;
+  std::vector<const SweepLine*> all{&summary.uniform};
+  std::vector<EstimatorId> ids;
+  for (const SweepLine& line : summary.lines) {
+    all.push_back(&line);
+    if (std::ranges::find(ids, line.lane.settings.estimator) == ids.end()) {
+      ids.push_back(line.lane.settings.estimator);
+    }
+  }
+  const Axis x = effort_axis(all, effort, panel_ticks);
+  Line uniform = trajectory(summary.uniform, effort, error_of, logarithmic);
+  uniform.dots = false;
+  uniform.label_at_end = false;
+  std::vector<Chart> charts;
+  Range seen;
+  for (const EstimatorId id : ids) {
+    Chart chart;
+    chart.title = label_of({.settings = default_settings(id)});
+    chart.x = x;
+    chart.lines = {front_line(summary, effort), uniform};
+    add_thresholds(summary, id, effort, logarithmic, chart);
+    const Range own = seen_range(chart);
+    seen.include(own.min);
+    seen.include(own.max);
+    charts.push_back(std::move(chart));
+  }
+  for (Chart& chart : charts) {
+    chart.y = value_axis(seen, with_unit(row.label, row), logarithmic, panel_ticks);
+  }
+  return charts;
+}
+
+std::vector<Chart> calibration_charts(const SweepResult& result) {
+  std::vector<Chart> charts;
   Range x;
   Range y;
-  std::size_t color = 0;
   for (const SweepRun& run : result.runs) {
-    if (run.factor != 1.0 || run.seed != result.first_seed) {
+    if (!is_default(run.lane) || run.lane.twin || run.seed != result.first_seed ||
+        run.quality.calibration.empty()) {
       continue;
     }
-    Line line{.label = std::string(estimator(run.settings.estimator).label),
-              .color = paper_color(color++),
-              .points = {},
-              .dots = true};
+    const EstimatorLook& look = look_of(run.lane.settings.estimator);
+    Line line{.label = "", .color = look.paper, .points = {}, .dots = true, .shape = look.shape};
     for (const CalibrationBin& bin : run.quality.calibration) {
       if (bin.estimated > 0.0 && bin.true_squared_error > 0.0) {
         line.points.emplace_back(bin.estimated, bin.true_squared_error);
@@ -188,20 +329,15 @@ Chart calibration_chart(const SweepResult& result) {
         y.include(bin.true_squared_error);
       }
     }
-    chart.lines.push_back(std::move(line));
+    charts.emplace_back();
+    charts.back().title = label_of(run.lane);
+    charts.back().lines.push_back(std::move(line));
   }
-  chart.x = log_axis(x.min, x.max, "estimated error, in units of the threshold", ticks);
-  chart.y = log_axis(y.min, y.max, "mean true squared error, radiance²", ticks);
-  return chart;
-}
-
-Rgba8 paper_color(std::size_t line) {
-  constexpr std::array colors{Rgba8{31, 119, 180}, Rgba8{230, 110, 0},  Rgba8{44, 150, 44},
-                              Rgba8{214, 39, 40},  Rgba8{130, 80, 180}, Rgba8{140, 86, 75},
-                              Rgba8{220, 90, 180}, Rgba8{23, 175, 195}, Rgba8{160, 160, 20},
-                              Rgba8{20, 60, 110},  Rgba8{0, 110, 90},   Rgba8{120, 0, 60},
-                              Rgba8{150, 150, 150}};
-  return colors[line % colors.size()];
+  for (Chart& chart : charts) {
+    chart.x = log_axis(x.min, x.max, "estimated error / threshold", panel_ticks);
+    chart.y = log_axis(y.min, y.max, "true squared error, radiance²", panel_ticks);
+  }
+  return charts;
 }
 
 }  // namespace quartet

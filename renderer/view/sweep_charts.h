@@ -1,38 +1,26 @@
 #pragma once
 
-#include <span>
-#include <string>
 #include <vector>
 
-#include "renderer/study/sweep.h"
+#include "renderer/study/sweep_points.h"
 #include "renderer/view/chart.h"
 
 namespace quartet {
 
-/// What a sweep's charts show, worked out once.
-struct SweepSummary {
-  std::vector<SweepPoint> points;   ///< of all lanes
-  std::vector<SweepPoint> uniform;  ///< the baseline, by rising passes
-  std::vector<SweepPoint> front;    ///< of points and uniform
-  MetricId metric = default_metric;
-  std::uint32_t seeds = 1;
-  double noise_floor = 0.0;  ///< of the reference; NaN: not known
-};
-SweepSummary summarize(const SweepResult& result, const SweepPlan& plan, std::size_t metric,
-                       double noise_floor);
+// Charts of a sweep, in colours for paper. An axis of errors is logarithmic, but of decibels.
 
-/// Error against as-if-alone seconds, mean rays and mean samples per pixel, on logarithmic axes: a
-/// line a lane through its thresholds with a band from the lowest to the highest seed, the
-/// default threshold marked, the uniform baseline dashed, as it was measured, and the reference's
-/// noise floor. In colours for paper.
-std::vector<Chart> sweep_charts(const SweepSummary& summary);
+/// All estimators at their default thresholds, over the passes of their runs, and uniform sampling:
+/// error, signed energy error and, if they are known, bias² and variance, against one effort. Each
+/// line's label stands at its end.
+std::vector<Chart> overview_charts(const SweepSummary& summary, Effort effort);
 
-/// What an estimator is worth pixel by pixel: mean true squared error against the estimated one in
-/// units of the threshold, at the default thresholds with the first seed. One that knew the truth
-/// would give a line of slope 1 or 2.
-Chart calibration_chart(const SweepResult& result);
+/// A small chart an estimator, all on the same axes: the error of each of its thresholds over the
+/// passes, its unbiased twin at the default thresholds, uniform sampling, and the front over all.
+std::vector<Chart> threshold_charts(const SweepSummary& summary, Effort effort);
 
-/// Colours that can be told apart on white paper, one a line; they repeat after thirteen.
-Rgba8 paper_color(std::size_t line);
+/// What each estimator is worth pixel by pixel, all on the same axes: mean true squared error
+/// against the estimated one in units of the threshold, at the default thresholds with the first
+/// seed. One that knew the truth would give a line of slope 1 or 2.
+std::vector<Chart> calibration_charts(const SweepResult& result);
 
 }  // namespace quartet

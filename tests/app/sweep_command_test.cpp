@@ -46,9 +46,11 @@ TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
   for (const auto& entry : std::filesystem::directory_iterator(out())) {
     names.insert(entry.path().filename().string());
   }
-  EXPECT_EQ(names, (std::set<std::string>{"sweep.csv", "sweep.png", "sweep.pdf", "sweep.svg",
-                                          "calibration.csv", "calibration.png", "calibration.pdf",
-                                          "calibration.svg", "quartet-files.txt"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"sweep.csv", "sweep.json", "sweep.png", "sweep.pdf", "sweep.svg",
+                                   "thresholds.png", "thresholds.pdf", "thresholds.svg",
+                                   "calibration.csv", "calibration.png", "calibration.pdf",
+                                   "calibration.svg", "quartet-files.txt"}));
   const auto rows = rows_of(bytes_of(folder_.path() / "out" / "sweep.csv"));
   EXPECT_EQ(rows[0], (std::vector<std::string>{"scene", "sampler", "estimator", "policy", "mode",
                                                "thresholds", "seed", "pass", "seconds", "rays",
@@ -59,19 +61,56 @@ TEST_F(SweepCommands, SweepWritesItsFilesAndPrintsWhatWasSaved) {
     ASSERT_EQ(rows[i].size(), 14u) << i;
     EXPECT_EQ(rows[i][0], "cornell-box");
     EXPECT_EQ(rows[i][1], "sobol");
-    metrics[rows[i][2] + " " + rows[i][12]]++;
     seeds.insert(rows[i][6]);
+    metrics[rows[i][2] + (rows[i][4] == "unbiased" ? "~ " : " ") + rows[i][12] +
+            (rows[i][6] == "all" ? " all" : "")]++;
     EXPECT_TRUE(std::isfinite(std::stod(rows[i][13])));
   }
-  EXPECT_EQ(seeds, (std::set<std::string>{"0", "1"}));
-  for (const std::string name : {"relmse", "mse", "flip", "oracle_distance"}) {
-    EXPECT_EQ(metrics["kl " + name], 3 * 2) << name;
-    EXPECT_EQ(metrics["contrast " + name], 3 * 2) << name;
+  EXPECT_EQ(seeds, (std::set<std::string>{"0", "1", "all"}));
+  for (const std::string lane : {"kl ", "kl~ ", "contrast ", "oracle ", "oracle~ "}) {
+    for (const std::string name :
+         {"relmse", "mse", "flip", "relmse_top_thousandth", "oracle_distance"}) {
+      EXPECT_EQ(metrics[lane + name], 3 * 2) << lane << name << ": ends alone";
+    }
+    EXPECT_EQ(metrics[lane + "relmse all"], 3);
   }
+  EXPECT_EQ(metrics["uniform-clamp relmse"], 2);
+  EXPECT_EQ(metrics["uniform-clamp~ relmse"], 0) << "nothing decides there";
+  // After passes 1, 2, 3 and at the end, which is the fourth or has 10 samples a pixel.
+  EXPECT_GT(metrics["kl relmse_regions"], 2 * 3 * 2);
+  EXPECT_LE(metrics["kl relmse_regions"], 4 * 3 * 2);
+  EXPECT_EQ(metrics["kl energy_error"], metrics["kl relmse_regions"]);
+  EXPECT_EQ(metrics["kl relmse_regions_squared_bias all"], metrics["kl relmse_regions_low all"]);
+  EXPECT_EQ(metrics["kl relmse_regions_of_uniform_rays all"], 3);
   // The baseline at passes 1, 2, 4, 8 at least.
   EXPECT_GE(metrics["uniform relmse"], 4 * 2);
   EXPECT_EQ(metrics["uniform energy_error"], metrics["uniform relmse"]);
   EXPECT_GT(rows_of(bytes_of(folder_.path() / "out" / "calibration.csv")).size(), 10u);
+}
+
+TEST_F(SweepCommands, TwinsAndAxisAreChosen) {
+  const auto none = run(sweep({"--estimators", "kl", "--twins", "none", "--metric", "mse", "--axis",
+                               "seconds", "--out", out()}));
+  ASSERT_EQ(none.code, 0) << none.error;
+  EXPECT_EQ(none.out.find("unbiased twin"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("bound: knows the truth"), std::string::npos);
+  EXPECT_NE(none.out.find("baseline that loses light"), std::string::npos);
+  EXPECT_NE(bytes_of(out() + "/sweep.csv").find("mse_variance"), std::string::npos);
+  const auto json = nlohmann::json::parse(bytes_of(out() + "/sweep.json"));
+  EXPECT_EQ(json.at("lanes").size(), 1u + 3u + 3u + 1u) << "uniform, kl, the oracle, the clamp";
+  expect_usage_error(sweep({"--out", out(), "--twins", "some"}), "there are: none, default, all");
+  expect_usage_error(sweep({"--out", out(), "--axis", "miles"}), "there are: seconds, rays, spp");
+}
+
+TEST_F(SweepCommands, SumsThatOutgrowMemoryAreTold) {
+  const auto result =
+      run({"sweep",    "cornell-box", "--size",       "64x64", "--passes",        "2",
+           "--seeds",  "2",           "--thresholds", "1",     "--estimators",    "kl",
+           "--metric", "mse",         "--twins",      "none",  "--reference-spp", "4",
+           "--memory", "0.001",       "--out",        out()});
+  ASSERT_EQ(result.code, 0) << result.error;
+  EXPECT_NE(result.error.find("bias² and variance of mse are those at the ends"), std::string::npos)
+      << result.error;
 }
 
 TEST_F(SweepCommands, VerifyTimeComparesWithRunsAlone) {
@@ -89,6 +128,9 @@ TEST_F(SweepCommands, SweepIsTheSameWithAnyNumberOfThreads) {
                                    threads, "--out", out() + threads}));
     ASSERT_EQ(result.code, 0) << result.error;
     sweeps.push_back(without_seconds(bytes_of(out() + threads + "/sweep.csv")));
+    std::erase_if(sweeps.back(), [](const std::vector<std::string>& row) {
+      return row[11].find("_of_uniform_seconds") != std::string::npos;
+    });
     calibrations.push_back(bytes_of(out() + threads + "/calibration.csv"));
     EXPECT_EQ(sweeps.back(), sweeps.front());
     EXPECT_EQ(calibrations.back(), calibrations.front());

@@ -45,6 +45,12 @@ TEST_F(VersusCommand, SaysWhatItFoundAsTextJsonAndCsv) {
   EXPECT_EQ(record.at("effort"), "spp");
   EXPECT_EQ(record.at("B").at("lane"), "uniform");
   ASSERT_TRUE(record.at("ratios").contains("relmse_regions"));
+  for (const char* lane : {"A", "B"}) {
+    // The worst of 64 pixels: at least a 64th, and not all.
+    const double top = record.at(lane).at("relmse_top_thousandth").get<double>();
+    EXPECT_GT(top, 1.0 / 64.0);
+    EXPECT_LT(top, 1.0);
+  }
 
   const auto rows = rows_of(bytes_of(csv));
   std::map<std::string, int> found;
@@ -54,6 +60,7 @@ TEST_F(VersusCommand, SaysWhatItFoundAsTextJsonAndCsv) {
   }
   EXPECT_EQ(found["uniform relmse"], 3 * 6) << "each pass of each seed";
   EXPECT_EQ(found["uniform energy_error"], 3 * 6);
+  EXPECT_EQ(found["uniform relmse_top_thousandth"], 3 * 6);
   EXPECT_EQ(found["kl relmse_at_goal"], 3);
   EXPECT_EQ(found["kl energy_error_at_goal"], 3);
 }

@@ -55,6 +55,38 @@ TEST(Metrics, TableIsInTheOrderOfItsKeysWithoutDuplicates) {
   }
 }
 
+TEST(Metrics, ErrorsAreWhatTheMetricIsTheMeanSquareOf) {
+  std::set<MetricId> found;
+  for (const Metric& row : metrics()) {
+    if (row.errors == nullptr) {
+      continue;
+    }
+    found.insert(row.key);
+    SCOPED_TRACE(row.id);
+    // Of a picture larger than the regions a side, and of one with empty regions.
+    for (const auto& [width, height] : {std::pair{23, 17}, {3, 2}}) {
+      const RadianceImage truth = even_noise(width, height, 1);
+      const RadianceImage a = even_noise(width, height, 2);
+      const RadianceImage b = even_noise(width, height, 3);
+      RadianceImage middle(width, height);
+      for (std::size_t i = 0; i < middle.size(); ++i) {
+        middle.pixels()[i] = 0.5f * (a.pixels()[i] + b.pixels()[i]);
+      }
+      const auto of_a = row.errors(a, truth);
+      const auto of_b = row.errors(b, truth);
+      const auto of_middle = row.errors(middle, truth);
+      double squares = 0.0;
+      for (std::size_t i = 0; i < of_a.size(); ++i) {
+        squares += double(of_a[i]) * double(of_a[i]);
+        EXPECT_NEAR(of_middle[i], 0.5f * (of_a[i] + of_b[i]), 1e-5f) << "they are linear";
+      }
+      const double error = row.compute(a, truth);
+      EXPECT_NEAR(squares / double(of_a.size()), error, 1e-6 * error);
+    }
+  }
+  EXPECT_EQ(found, (std::set{MetricId::mse, MetricId::relmse, MetricId::relmse_regions}));
+}
+
 TEST(Metrics, UnknownOneListsTheLegalOnes) {
   const std::string message = message_of([] { find_metric("ssim"); });
   EXPECT_NE(message.find("'ssim'"), std::string::npos) << message;

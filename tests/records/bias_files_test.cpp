@@ -20,7 +20,8 @@ BiasRuns counted_bias(SampleMode mode, float first) {
   runs.mean_spp = {first + 1, first + 2};
   runs.mean_rays = {first + 6, first + 8};
   runs.seconds = {first + 3, first + 5};
-  runs.energy = {0.125, 0.375};
+  runs.luminance = {9, 11};
+  runs.uniform_luminance = {8, 8};
   runs.mean = RadianceImage(2, 1, glm::vec3(first));
   runs.uniform = RadianceImage(2, 1);
   runs.uniform.pixels()[0] = {first + 10, first + 11, first + 12};

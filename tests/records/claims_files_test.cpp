@@ -42,7 +42,9 @@ std::vector<TwoSeeds> expected_quantities(const ClaimData& data) {
   add("all", 2, "lit_mean_spp", [](const ClaimRun& run) { return run.lit_spp; });
   add("all", 2, "seconds", [](const ClaimRun& run) { return run.seconds; });
   add("all", 2, "relmse", [](const ClaimRun& run) { return run.relmse; });
+  add("all", 2, "relmse_top_thousandth", [](const ClaimRun& run) { return run.relmse_top; });
   add("all", 2, "flip", [](const ClaimRun& run) { return run.flip; });
+  add("all", 2, "energy_error", [](const ClaimRun& run) { return run.energy; });
   add(
       "all", 2, "relmse_of_uniform_at_equal_time",
       [](const ClaimRun& run) { return run.relmse / run.uniform_relmse; }, true);
@@ -68,7 +70,7 @@ Interval interval_of(const std::pair<double, double>& values, bool geometric) {
 void expect_same_interval(const Interval& a, const Interval& b) {
   EXPECT_NEAR(a.mean, b.mean, 1e-7 * std::abs(b.mean));
   EXPECT_NEAR(a.low, b.low, 1e-6 * (std::abs(b.low) + std::abs(b.mean)));
-  EXPECT_NEAR(a.high, b.high, 1e-6 * std::abs(b.high));
+  EXPECT_NEAR(a.high, b.high, 1e-6 * (std::abs(b.high) + std::abs(b.mean)));
 }
 
 TEST(ClaimsFiles, EveryColumnHoldsItsOwnNumber) {
@@ -97,6 +99,14 @@ TEST(ClaimsFiles, EveryColumnHoldsItsOwnNumber) {
                            interval_of(each.values[c], each.geometric));
     }
   }
+}
+
+TEST(ClaimsFiles, ARaceIsToldWithItsEnergy) {
+  const auto run = test::tiny_run();
+  const std::string text =
+      claims_text({run, test::numbered_claim_data(), 15, 300, "quartet claims"});
+  // Of contrast −1 and −3 %, whose interval is 12.706 % wide to either side.
+  EXPECT_NE(text.find("; energy -2.00 % (-14.71 to +10.71)\n"), std::string::npos) << text;
 }
 
 TEST(ClaimsFiles, JsonHoldsTheSameAndEveryFinding) {

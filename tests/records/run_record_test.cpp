@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "renderer/base/version.h"
+#include "renderer/measure/top_share.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/store/sample_store.h"
 #include "renderer/view/views.h"
@@ -119,6 +120,14 @@ TEST(CsvRecord, HasEveryNumberInItsColumn) {
   RadianceImage shown(2, 1, glm::vec3(0.25f));
   for (const Metric& row : metrics()) {
     expected.push_back(fmt::format("{} {:.9g}", row.id, row.compute(shown, *snapshot.reference)));
+    if (row.key == MetricId::relmse) {
+      // Of two pixels the worse one: 0.75, 0 and 0.25 off 1, 0.25 and 0.5, of both.
+      const double first = 0.5625 / 1.01 + 0.0625 / 0.26;
+      const double second = 2 * 0.0625 / 0.26 + 0.5625 / 1.01;
+      expected.push_back(fmt::format("relmse_top_thousandth {:.9g}",
+                                     relmse_top_share(shown, *snapshot.reference)));
+      EXPECT_NEAR(relmse_top_share(shown, *snapshot.reference), second / (first + second), 1e-6);
+    }
   }
   // Off by 0.75, 0, 0.25 and 0.25, 0.25, 0.75.
   const double mse = (2 * 0.5625 + 3 * 0.0625) / 6.0;
@@ -152,7 +161,8 @@ TEST(JsonRecord, HasEveryNumberUnderItsName) {
   ASSERT_EQ(record.at("lanes").size(), 2u);
 
   json lane = record.at("lanes")[0];
-  EXPECT_EQ(lane.at("metrics").size(), metrics().size() + 2) << "efficiency and energy_error";
+  EXPECT_EQ(lane.at("metrics").size(), metrics().size() + 3)
+      << "what of relmse is at the top, efficiency and energy_error";
   lane.erase("metrics");
   EXPECT_EQ(lane.at("unit"), estimator(EstimatorId::contrast).unit);
   lane.erase("unit");

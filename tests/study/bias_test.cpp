@@ -38,10 +38,10 @@ TEST(Bias, OfReuseIsFoundAndModeUnbiasedHasNone) {
         measure("synthetic:bernoulli", EstimatorId::chi2, kind, 0.01f, 8, 8);
     ASSERT_EQ(runs.size(), 2u);
     EXPECT_EQ(runs[0].settings.mode, SampleMode::reuse);
-    EXPECT_LT(mean_p(runs[0].energy, 0.0), 1e-4);
-    EXPECT_LT(mean_interval(runs[0].energy, 1e-4).high, 0.0);
+    EXPECT_LT(mean_p(energies_less_uniform(runs[0]), 0.0), 1e-4);
+    EXPECT_LT(mean_interval(energies_less_uniform(runs[0]), 1e-4).high, 0.0);
     EXPECT_EQ(runs[1].settings.mode, SampleMode::unbiased);
-    EXPECT_GT(mean_p(runs[1].energy, 0.0), 1e-4);
+    EXPECT_GT(mean_p(energies_less_uniform(runs[1]), 0.0), 1e-4);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(Bias, OfWhatDecidesNothingIsExactlyZero) {
   const std::vector<BiasRuns> runs =
       measure("synthetic:log-normal", EstimatorId::kl, PolicyId::vote, 1e30f, 5, 2);
   for (const BiasRuns& each : runs) {
-    for (const double energy : each.energy) {
+    for (const double energy : energies_less_uniform(each)) {
       EXPECT_EQ(energy, 0.0);
     }
     for (const float difference : each.difference.pixels()) {
@@ -126,13 +126,11 @@ TEST(Bias, EveryNumberIsThatOfTheSeedsRunsAlone) {
   for (std::size_t mode = 0; mode < 2; ++mode) {
     SCOPED_TRACE(mode);
     const BiasRuns& found = runs[mode];
-    ASSERT_EQ(found.energy.size(), seeds);
+    ASSERT_EQ(found.luminance.size(), seeds);
     for (std::size_t k = 0; k < seeds; ++k) {
       EXPECT_DOUBLE_EQ(found.mean_spp[k], alone[k].mean_spp[mode]);
-      EXPECT_NEAR(
-          found.energy[k],
-          sum_of_luminances(alone[k].shown[mode]) / sum_of_luminances(alone[k].uniform) - 1.0,
-          1e-9);
+      EXPECT_NEAR(found.luminance[k] * 12 * 9, sum_of_luminances(alone[k].shown[mode]), 1e-9);
+      EXPECT_NEAR(found.uniform_luminance[k] * 12 * 9, sum_of_luminances(alone[k].uniform), 1e-9);
     }
     double noise = 0.0;
     for (std::size_t i = 0; i < found.mean.size(); ++i) {
@@ -157,6 +155,18 @@ TEST(Bias, EveryNumberIsThatOfTheSeedsRunsAlone) {
     }
     EXPECT_NEAR(found.noise, noise, 1e-9 + 1e-6 * noise);
   }
+}
+
+TEST(Bias, EnergyIsTheRatioOfTheSums) {
+  BiasRuns runs;
+  runs.luminance = {1.0, 3.0};
+  runs.uniform_luminance = {1.0, 4.0};
+  // 4/5 of both; 3/4 without the first, 1 without the second. Pseudovalues: 2 · 4/5 − 3/4 = 0.85
+  // and 2 · 4/5 − 1 = 0.6.
+  const std::vector<double> energies = energies_less_uniform(runs);
+  ASSERT_EQ(energies.size(), 2u);
+  EXPECT_NEAR(energies[0], -0.15, 1e-12);
+  EXPECT_NEAR(energies[1], -0.4, 1e-12);
 }
 
 TEST(Bias, ThePriceIsNoiseTimesSecondsOverThoseOfReuse) {

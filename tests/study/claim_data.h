@@ -23,7 +23,9 @@ inline ClaimData numbered_claim_data() {
       run.seconds = 1.0 + double(c);
       run.relmse = factor;
       run.uniform_relmse = 4.0;
+      run.relmse_top = 0.05 * factor;
       run.flip = 2.0 * factor;
+      run.energy = -0.01 * factor;
       run.uniform_flip = 32.0;
       run.firefly = {7, 5.0 * factor, 2.0 * factor};
     }

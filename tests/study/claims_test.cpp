@@ -6,7 +6,9 @@
 #include <memory>
 #include <numeric>
 
+#include "renderer/measure/energy.h"
 #include "renderer/measure/reference/reference_render.h"
+#include "renderer/measure/top_share.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/study/claim_data.h"
 #include "tests/trace/statistics.h"
@@ -264,7 +266,9 @@ TEST(Claims, AreMeasuredOnTheReportsScene) {
     const ClaimRun& run = data->seeds[0].runs[c];
     const RadianceImage picture = lane.film().image();
     EXPECT_EQ(run.relmse, metric(MetricId::relmse).compute(picture, reference->image));
+    EXPECT_EQ(run.relmse_top, relmse_top_share(picture, reference->image));
     EXPECT_EQ(run.flip, metric(MetricId::flip).compute(picture, reference->image));
+    EXPECT_EQ(run.energy, energy_error(picture, reference->image));
     std::vector<double> samples(regions().size(), 0.0);
     double lit = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {

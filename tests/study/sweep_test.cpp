@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <memory>
 
 #include "renderer/adaptive/effort.h"
 #include "renderer/base/interval.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/study/calibrate.h"
-#include "renderer/view/sweep_charts.h"
 #include "tests/study/noisy_source.h"
 
 namespace quartet {
@@ -42,6 +41,7 @@ SweepPlan small_plan() {
   plan.lane_settings = {default_settings(EstimatorId::kl), default_settings(EstimatorId::contrast)};
   plan.thresholds = 3;
   plan.seeds = 3;
+  plan.twins = Twins::none;
   plan.stop = {.passes = 6, .spp = 20.0};
   plan.metrics = {MetricId::relmse, MetricId::mse};
   return plan;
@@ -82,8 +82,7 @@ TEST(Sweep, HasEveryLaneFactorAndSeedOnce) {
       for (const double factor : {0.1, 1.0, 10.0}) {
         const SweepRun& run = result.runs[i++];
         EXPECT_EQ(run.seed, seed);
-        EXPECT_EQ(run.factor, factor);
-        EXPECT_EQ(run.settings, scaled_thresholds(settings, factor));
+        EXPECT_EQ(run.lane, (SweepLane{scaled_thresholds(settings, factor), factor, false}));
       }
     }
   }
@@ -94,12 +93,114 @@ TEST(Sweep, ARunIsThatOfALabAlone) {
   const SampleWorld world = noisy_world();
   Experiment alone(world.source(run.seed), swept_width, swept_height, {}, world.reference);
   const auto end = alone
-                       .run({.settings = run.settings,
+                       .run({.settings = run.lane.settings,
                              .stop = small_plan().stop,
                              .metrics = small_plan().metrics})
                        ->back();
   EXPECT_EQ(end.record.samples, run.end.record.samples);
   EXPECT_EQ(end.values, run.end.values);
+}
+
+TEST(SweepLanes, TwinsComeBehindTheirLanesAndOnlyWhereSomethingDecides) {
+  SweepPlan plan = small_plan();
+  plan.lane_settings = {default_settings(EstimatorId::kl),
+                        default_settings(EstimatorId::uniform_clamp),
+                        default_settings(EstimatorId::contrast)};
+  plan.lane_settings[2].mode = SampleMode::unbiased;
+  const auto found = [&](Twins twins) {
+    plan.twins = twins;
+    std::string text;
+    for (const SweepLane& lane : sweep_lanes(plan)) {
+      EXPECT_EQ(lane.settings.mode, lane.twin || lane.settings.estimator == EstimatorId::contrast
+                                        ? SampleMode::unbiased
+                                        : SampleMode::reuse);
+      text += std::string(estimator(lane.settings.estimator).id) + (lane.twin ? "~" : " ") +
+              (lane.factor < 1.0   ? "low "
+               : lane.factor > 1.0 ? "high "
+                                   : "1 ");
+    }
+    return text;
+  };
+  const std::string rest = "uniform-clamp 1 contrast low contrast 1 contrast high ";
+  EXPECT_EQ(found(Twins::none), "kl low kl 1 kl high " + rest);
+  EXPECT_EQ(found(Twins::at_defaults), "kl low kl 1 kl high kl~1 " + rest);
+  EXPECT_EQ(found(Twins::at_all), "kl low kl 1 kl high kl~low kl~1 kl~high " + rest);
+}
+
+TEST(Sweep, ATwinIsTheLaneInModeUnbiasedWithItsPilotCharged) {
+  SampleWorld world = noisy_world();
+  world.pilot = [source = world.source](std::uint64_t seed) { return source(seed + 1000); };
+  SweepPlan plan = small_plan();
+  plan.lane_settings = {default_settings(EstimatorId::kl)};
+  plan.thresholds = 1;
+  plan.low = plan.high = 1.0;
+  plan.twins = Twins::at_all;
+  plan.seeds = 1;
+  plan.stop = {.passes = 4};
+  const SweepResult result = *run_sweep(world, plan, {}, {});
+  ASSERT_EQ(result.runs.size(), 2u);
+  EXPECT_FALSE(result.runs[0].lane.twin);
+  ASSERT_TRUE(result.runs[1].lane.twin);
+  const PassRecord& twin = result.runs[1].end.record;
+  EXPECT_EQ(twin.samples, 2 * twin.pilot_samples) << "as many shown as the pilot took";
+  EXPECT_EQ(result.runs[0].end.record.pilot_samples, 0u);
+  LaneSettings unbiased = plan.lane_settings[0];
+  unbiased.mode = SampleMode::unbiased;
+  Experiment alone = make_experiment(world, world.first_seed);
+  const auto run = alone.run({.settings = unbiased, .stop = plan.stop, .metrics = plan.metrics});
+  EXPECT_EQ(run->back().values, result.runs[1].end.values);
+  EXPECT_EQ(run->back().record.samples, twin.samples);
+}
+
+TEST(Sweep, RunsAreMeasuredOnTheirWayAndSplitIntoBiasAndVariance) {
+  const SweepResult& result = small_result();
+  const SampleWorld world = noisy_world();
+  const Metric& relmse = metric(MetricId::relmse);
+  EXPECT_EQ(parts_metric(small_plan()), &relmse);
+  ASSERT_EQ(result.parts.size(), 6u);
+  for (std::size_t line = 0; line < 6; ++line) {
+    std::map<std::uint32_t, std::vector<RadianceImage>> pictures;
+    std::vector<RadianceImage> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const SweepRun& run = result.runs[6 * k + line];
+      Experiment alone = make_experiment(world, run.seed);
+      RunPlan plan{.settings = run.lane.settings,
+                   .stop = small_plan().stop,
+                   .metrics = {MetricId::relmse},
+                   .measure_at = MeasureAt::every_pass};
+      plan.each_picture = [&](std::uint32_t pass, const RadianceImage& image) {
+        pictures[pass].push_back(image);
+      };
+      const auto passes = *alone.run(plan);
+      ends.push_back(alone.lane().film().image());
+      ASSERT_FALSE(run.way.empty());
+      for (const Measurement& way : run.way) {
+        const std::uint32_t pass = way.record.pass;
+        EXPECT_TRUE(pass == 1 || pass == 2 || pass == 3 || pass == 4) << pass;
+        EXPECT_EQ(way.values, passes[pass - 1].values) << "the first metric alone";
+        EXPECT_EQ(way.energy, passes[pass - 1].energy);
+        EXPECT_EQ(way.record.samples, passes[pass - 1].record.samples);
+      }
+    }
+    const auto expect_parts = [&](const ErrorParts& parts, const std::vector<RadianceImage>& of) {
+      ASSERT_EQ(of.size(), 3u);
+      ErrorSums sums;
+      double mean = 0.0;
+      for (const RadianceImage& image : of) {
+        sums.add(relmse.errors(image, *world.reference));
+        mean += relmse.compute(image, *world.reference) / 3.0;
+      }
+      EXPECT_EQ(parts.variance, sums.parts().variance);
+      EXPECT_EQ(parts.squared_bias, sums.parts().squared_bias);
+      EXPECT_NEAR(parts.variance + parts.squared_bias, mean, 1e-6 * mean);
+    };
+    expect_parts(result.parts[line].end, ends);
+    for (const std::uint32_t pass : {1, 2, 3, 4}) {
+      ASSERT_TRUE(result.parts[line].way.contains(pass)) << pass;
+      expect_parts(result.parts[line].way.at(pass), pictures[pass]);
+    }
+  }
+  EXPECT_FALSE(result.parts_at_ends_only);
 }
 
 TEST(Sweep, TheBaselineIsMeasuredAroundTheSamplesOfEachRun) {
@@ -138,6 +239,9 @@ TEST(Sweep, ShortOfMemoryItTracesAgainWithTheSameResult) {
   world.lab.memory = 60'000;
   const SweepResult result = *run_sweep(world, small_plan(), {}, {});
   EXPECT_TRUE(result.partial);
+  EXPECT_TRUE(result.parts_at_ends_only) << "a picture of each of ten passes takes more";
+  EXPECT_TRUE(result.parts[0].way.empty());
+  EXPECT_EQ(result.parts[0].end.variance, small_result().parts[0].end.variance);
   EXPECT_GT(result.samples_traced, small_result().samples_traced);
   ASSERT_EQ(result.runs.size(), small_result().runs.size());
   for (std::size_t i = 0; i < result.runs.size(); ++i) {
@@ -162,144 +266,6 @@ TEST(Sweep, ProgressRisesAndStops) {
   std::stop_source stop;
   EXPECT_FALSE(run_sweep(noisy_world(), small_plan(), stop.get_token(),
                          [&](double, std::string_view) { stop.request_stop(); }));
-}
-
-TEST(SweepPoints, AreMediansOverSeedsWithTheirRange) {
-  const SweepResult& result = small_result();
-  const auto points = sweep_points(result, small_plan(), 1);
-  ASSERT_EQ(points.size(), 6u);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::vector<double> errors;
-    for (std::size_t k = 0; k < 3; ++k) {
-      errors.push_back(result.runs[6 * k + i].end.values[1]);
-    }
-    std::ranges::sort(errors);
-    EXPECT_EQ(points[i].error_low, errors[0]);
-    EXPECT_EQ(points[i].error, errors[1]);
-    EXPECT_EQ(points[i].error_high, errors[2]);
-    EXPECT_GT(points[i].against_uniform[std::size_t(Effort::mean_spp)], 0.0);
-  }
-  // Higher thresholds, fewer samples.
-  EXPECT_GT(points[0].mean_spp, points[1].mean_spp);
-  EXPECT_GE(points[1].mean_spp, points[2].mean_spp);
-}
-
-TEST(SweepPoints, AgainstUniformIsTheRatioAtEqualEffort) {
-  SweepPlan plan = small_plan();
-  plan.lane_settings = {default_settings(EstimatorId::kl)};
-  plan.thresholds = 1;
-  plan.low = 1.0;
-  plan.metrics = {MetricId::mse};
-  SweepResult result;
-  result.first_seed = 9;
-  const auto measured = [](double seconds, double error) {
-    Measurement measurement;
-    measurement.record.seconds = seconds;
-    measurement.mean_spp = 10.0 * seconds;
-    measurement.mean_rays = 20.0 * seconds * seconds;
-    measurement.values = {error};
-    return measurement;
-  };
-  for (const double noise : {1.0, 2.0, 4.0}) {
-    // Uniform: noise / seconds. The other: half of that, after 3 seconds.
-    result.uniform.push_back({measured(1.0, noise), measured(4.0, noise / 4.0)});
-    SweepRun run{.settings = plan.lane_settings[0], .seed = 9 + result.runs.size()};
-    run.end = measured(3.0, 0.5 * noise / 3.0);
-    result.runs.push_back(run);
-  }
-  const auto points = sweep_points(result, plan, 0);
-  ASSERT_EQ(points.size(), 1u);
-  for (const double ratio : points[0].against_uniform) {
-    EXPECT_NEAR(ratio, 0.5, 1e-12);
-  }
-  EXPECT_NEAR(points[0].error, 1.0 / 3.0, 1e-12);
-}
-
-TEST(SweepPoints, OfThreeSeedsByHand) {
-  SweepPlan plan = small_plan();
-  plan.lane_settings = {default_settings(EstimatorId::kl)};
-  plan.thresholds = 1;
-  plan.low = 1.0;
-  plan.metrics = {MetricId::mse, MetricId::rmse, MetricId::psnr};
-  SweepResult result;
-  result.first_seed = 100;
-  const auto measured = [](double seconds, double spp, double mse, double rmse, double psnr) {
-    Measurement measurement;
-    measurement.record.seconds = seconds;
-    measurement.mean_spp = spp;
-    measurement.values = {mse, rmse, psnr};
-    return measurement;
-  };
-  const auto at_pass = [](std::uint32_t pass, Measurement measurement) {
-    measurement.record.pass = pass;
-    return measurement;
-  };
-  // Uniform sampling at passes 2 and 4; the second seed was measured once more.
-  result.uniform = {
-      {at_pass(2, measured(1, 10, 8, 80, 30)), at_pass(4, measured(4, 40, 2, 40, 36))},
-      {at_pass(2, measured(1.5, 11, 6, 60, 31)),
-       at_pass(3, measured(3, 22, 3, 60 / std::sqrt(2), 34)),
-       at_pass(4, measured(6, 44, 1.5, 30, 37))},
-      {at_pass(2, measured(3, 30, 4, 50, 33)), at_pass(4, measured(5, 50, 1.25, 25, 38))}};
-  const auto add = [&](std::uint64_t seed, const Measurement& end) {
-    SweepRun run{.settings = plan.lane_settings[0], .seed = seed};
-    run.end = end;
-    result.runs.push_back(run);
-  };
-  add(100, measured(2, 20, 1, 100, 35));
-  add(101, measured(3, 28, 6, 15, 32));
-  add(102, measured(4, 90, 0.5, 50, 40));
-
-  const auto mse = sweep_points(result, plan, 0);
-  ASSERT_EQ(mse.size(), 1u);
-  EXPECT_EQ(mse[0].settings, plan.lane_settings[0]);
-  EXPECT_EQ(mse[0].factor, 1.0);
-  EXPECT_EQ(mse[0].seconds, 3.0);
-  EXPECT_EQ(mse[0].mean_spp, 28.0) << "the mean is 46";
-  EXPECT_EQ(mse[0].error, 1.0);
-  EXPECT_EQ(mse[0].error_low, 0.5);
-  EXPECT_EQ(mse[0].error_high, 6.0);
-  // Uniform sampling: 8/s, so 4 after 2 s; 9/s, so 3 after 3 s; 4 (s/3)^-2.2764 between 3 and 5 s,
-  // so 2.0780 after 4 s. Ratios: 1/4, 2 and 0.2406.
-  EXPECT_NEAR(mse[0].against_uniform[std::size_t(Effort::seconds)], 0.25, 1e-12);
-  const auto rmse = sweep_points(result, plan, 1);
-  EXPECT_EQ(rmse[0].error, 50.0);
-  EXPECT_EQ(rmse[0].error_low, 15.0);
-  EXPECT_EQ(rmse[0].error_high, 100.0);
-  // 80 falls to 40 as 1/√s: 80 / √2 after 2 s. 60 to 30 too: 60 / √2 after 3 s. 50 falls to 25 as
-  // s^-1.357 from 3 to 5 s: 33.84 after 4 s. Ratios: 1.77, 0.35 and 1.48.
-  EXPECT_NEAR(rmse[0].against_uniform[std::size_t(Effort::seconds)],
-              std::pow(4.0 / 3.0, std::log(2.0) / std::log(5.0 / 3.0)), 1e-9);
-  const auto psnr = sweep_points(result, plan, 2);
-  EXPECT_EQ(psnr[0].error, 35.0);
-  EXPECT_TRUE(std::isnan(psnr[0].against_uniform[0])) << "of decibels there is no ratio";
-
-  const auto uniform = uniform_points(result, 0);
-  ASSERT_EQ(uniform.size(), 2u) << "the passes that all seeds have";
-  EXPECT_EQ(uniform[0].settings.estimator, EstimatorId::uniform);
-  EXPECT_EQ(uniform[0].seconds, 1.5);
-  EXPECT_EQ(uniform[0].mean_spp, 11.0);
-  EXPECT_EQ(uniform[0].error, 6.0);
-  EXPECT_EQ(uniform[0].error_low, 4.0);
-  EXPECT_EQ(uniform[0].error_high, 8.0);
-  EXPECT_EQ(uniform[0].against_uniform[0], 1.0);
-  EXPECT_EQ(uniform[1].seconds, 5.0);
-  EXPECT_EQ(uniform[1].mean_spp, 44.0);
-  EXPECT_EQ(uniform[1].error, 1.5);
-  EXPECT_EQ(uniform[1].error_low, 1.25);
-  EXPECT_EQ(uniform[1].error_high, 2.0);
-
-  const SweepSummary summary = summarize(result, plan, 0, 0.125);
-  EXPECT_EQ(summary.metric, MetricId::mse);
-  EXPECT_EQ(summary.seeds, 3u);
-  EXPECT_EQ(summary.noise_floor, 0.125);
-  ASSERT_EQ(summary.points.size(), 1u);
-  EXPECT_EQ(summary.points[0].seconds, 3.0);
-  ASSERT_EQ(summary.uniform.size(), 2u);
-  // By rising time: uniform after 1.5 s, kl after 3 s; uniform after 5 s is worse than that.
-  ASSERT_EQ(summary.front.size(), 2u);
-  EXPECT_EQ(summary.front[0].error, 6.0);
-  EXPECT_EQ(summary.front[1].error, 1.0);
 }
 
 TEST(Sweep, EachSeedIsUsed) {
@@ -330,104 +296,6 @@ TEST(Sweep, EachSeedIsUsed) {
   }
   EXPECT_NE(first_of(world.source(3)), first_of(world.source(4)));
   EXPECT_NE(first_of(world.pilot(3)), first_of(world.pilot(4)));
-}
-
-SweepPoint point_at(double seconds, double error) {
-  SweepPoint point;
-  point.seconds = seconds;
-  point.error = error;
-  return point;
-}
-
-TEST(ParetoFront, HoldsWhatNothingBeatsInBoth) {
-  const std::vector<SweepPoint> points{point_at(3, 3), point_at(1, 9), point_at(2, 9.5),
-                                       point_at(4, 3), point_at(5, 1), point_at(1, 12)};
-  const auto front = pareto_front(points, false);
-  ASSERT_EQ(front.size(), 3u);
-  EXPECT_EQ(front[0].error, 9);
-  EXPECT_EQ(front[1].error, 3);
-  EXPECT_EQ(front[1].seconds, 3);
-  EXPECT_EQ(front[2].error, 1);
-  // By the definition, for every pair.
-  for (const SweepPoint& point : points) {
-    const bool beaten = std::ranges::any_of(points, [&](const SweepPoint& other) {
-      return other.seconds <= point.seconds && other.error <= point.error &&
-             (other.seconds < point.seconds || other.error < point.error);
-    });
-    const bool in_front = std::ranges::any_of(front, [&](const SweepPoint& other) {
-      return other.seconds == point.seconds && other.error == point.error;
-    });
-    EXPECT_NE(beaten, in_front);
-  }
-  EXPECT_EQ(pareto_front(points, true).size(), 1u) << "the best comes first";
-}
-
-TEST(Median, OfOddAndEvenNumbers) {
-  EXPECT_EQ(median({3, 1, 2}), 2.0);
-  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
-  EXPECT_TRUE(std::isnan(median({1, std::numeric_limits<double>::quiet_NaN(), 2})));
-}
-
-TEST(SweepCharts, HoldEveryCurveTheBaselineTheDefaultsAndTheFloor) {
-  const SweepSummary summary = summarize(small_result(), small_plan(), 0, 1e-5);
-  const std::vector<Chart> charts = sweep_charts(summary);
-  ASSERT_EQ(charts.size(), 2u) << "no samples were traced, so that there are no rays to chart";
-  for (const Chart& chart : charts) {
-    EXPECT_EQ(chart.x.spacing, Spacing::logarithmic);
-    EXPECT_NE(chart.y.label.find(metric(MetricId::relmse).label), std::string::npos);
-    for (const LaneSettings& settings : small_plan().lane_settings) {
-      const auto line =
-          std::ranges::find(chart.lines, estimator(settings.estimator).label, &Line::label);
-      ASSERT_NE(line, chart.lines.end());
-      EXPECT_EQ(line->points.size(), 3u);
-      EXPECT_TRUE(line->dots);
-      for (const glm::dvec2& point : line->points) {
-        EXPECT_GE(axis_position(chart.x, point.x), 0.0);
-        EXPECT_LE(axis_position(chart.x, point.x), 1.0);
-        EXPECT_GE(axis_position(chart.y, point.y), 0.0);
-        EXPECT_LE(axis_position(chart.y, point.y), 1.0);
-      }
-    }
-    EXPECT_EQ(std::ranges::count(chart.marks, "default threshold", &PointMark::label), 2);
-    EXPECT_EQ(chart.bands.size(), 2u);
-    ASSERT_EQ(chart.levels.size(), 1u);
-    EXPECT_EQ(chart.levels[0].value, 1e-5);
-    const auto baseline = std::ranges::find(chart.lines, true, &Line::dashed);
-    ASSERT_NE(baseline, chart.lines.end());
-    EXPECT_EQ(baseline->points.size(), uniform_points(small_result(), 0).size()) << "as measured";
-  }
-}
-
-TEST(SweepCharts, OfTracedSamplesHaveOneAgainstRays) {
-  SweepResult result = small_result();
-  for (SweepRun& run : result.runs) {
-    run.end.mean_rays = 7.0 * run.end.mean_spp;
-  }
-  for (std::vector<Measurement>& run : result.uniform) {
-    for (Measurement& measurement : run) {
-      measurement.mean_rays = 7.0 * measurement.mean_spp;
-    }
-  }
-  const std::vector<Chart> charts = sweep_charts(summarize(result, small_plan(), 0, 1e-5));
-  ASSERT_EQ(charts.size(), 3u);
-  ASSERT_EQ(charts[1].lines.size(), charts[2].lines.size());
-  for (std::size_t i = 0; i < charts[1].lines.size(); ++i) {
-    const Line& rays = charts[1].lines[i];
-    const Line& samples = charts[2].lines[i];
-    ASSERT_EQ(rays.points.size(), samples.points.size());
-    for (std::size_t k = 0; k < rays.points.size(); ++k) {
-      EXPECT_NEAR(rays.points[k].x / samples.points[k].x, 7.0, 1e-9);
-      EXPECT_NEAR(rays.points[k].y / samples.points[k].y, 1.0, 1e-9);
-    }
-  }
-}
-
-TEST(CalibrationChart, HasALineAnEstimator) {
-  const Chart chart = calibration_chart(small_result());
-  ASSERT_EQ(chart.lines.size(), 2u);
-  for (const Line& line : chart.lines) {
-    EXPECT_GT(line.points.size(), 3u);
-  }
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ Chart pareto(std::string title) {
   chart.title = std::move(title);
   chart.x = log_axis(0.1, 40.0, "as-if-alone time (s)", 7);
   chart.y = log_axis(2e-5, 0.3, "relMSE (ratio)", 7);
-  Line uniform{"uniform", gray, {}, true};
-  Line kl{"√ Kullback–Leibler", red, {}, false, true};
+  Line uniform{"uniform", gray, {}, Dash::dashed};
+  Line kl{"√ Kullback–Leibler", red, {}, Dash::solid, true};
   Band spread{"5 % to 95 % of seeds", pale, {}, {}};
   for (double t = 0.1; t < 40.0; t *= 1.7) {
     uniform.points.emplace_back(t, 0.02 / t);
@@ -50,6 +50,24 @@ ChartFigure two_charts() {
   return figure;
 }
 
+/// Many lines that end near each other, one of them outside of its chart, with labels at their
+/// ends.
+ChartFigure labelled_ends() {
+  ChartFigure figure = two_charts();
+  figure.area_width = 300.0;
+  figure.area_height = 260.0;
+  for (Chart& chart : figure.charts) {
+    for (int i = 0; i < 8; ++i) {
+      Line line{"end " + std::to_string(i), blue, {{0.2, 0.01}, {20.0, 0.001 * (1.0 + 0.01 * i)}}};
+      line.label_at_end = true;
+      chart.lines.push_back(line);
+    }
+    chart.lines.back().points = {{0.05, 1e-6}};
+    chart.lines.back().label = std::string(300, 'W');
+  }
+  return figure;
+}
+
 std::vector<ChartFigure> figures() {
   std::vector<ChartFigure> all{two_charts(), two_charts(), {}};
   all[1].columns = 1;
@@ -62,6 +80,7 @@ std::vector<ChartFigure> figures() {
   all[1].footer = std::string(3000, 'x');
   all.push_back(two_charts());
   all.back().charts.push_back(pareto("error against rays"));
+  all.push_back(labelled_ends());
   return all;
 }
 
@@ -130,6 +149,44 @@ TEST(ChartLayout, LabelsOfBothAxesAndALegendEntryALabelOnce) {
     EXPECT_EQ(std::ranges::count(layout.texts, text, &PlacedText::text), 1) << text;
   }
   EXPECT_EQ(layout.legend.size(), 5u);
+}
+
+TEST(ChartLayout, LabelsAtEndsStandBesideTheChartInTheOrderOfTheEnds) {
+  const ChartFigure figure = labelled_ends();
+  const ChartLayout layout = lay_out(figure);
+  ASSERT_EQ(layout.legend.size(), 5u) << "they are not in the legend";
+  for (const PlacedChart& placed : layout.charts) {
+    ASSERT_EQ(placed.end_labels.size(), 8u);
+    for (std::size_t i = 0; i < placed.end_labels.size(); ++i) {
+      const EndLabel& label = placed.end_labels[i];
+      EXPECT_GT(label.sample.x, placed.area.right());
+      EXPECT_GE(label.sample.y, placed.area.y);
+      EXPECT_LE(label.sample.bottom(), placed.area.bottom() + 1e-9);
+      if (i > 0) {
+        EXPECT_GE(label.from.y, placed.end_labels[i - 1].from.y);
+        EXPECT_GE(label.sample.y, placed.end_labels[i - 1].sample.bottom() - 1e-9);
+      }
+    }
+    // The one that is not seen is joined to the corner where it left.
+    EXPECT_EQ(placed.end_labels.back().from, glm::dvec2(placed.area.x, placed.area.bottom()));
+    const EndLabel& seen = placed.end_labels.front();
+    EXPECT_NEAR(seen.from.x, placed.x(20.0), 1e-9);
+    EXPECT_NEAR(seen.from.y, placed.y(seen.line->points.back().y), 1e-9);
+  }
+}
+
+TEST(ChartPng, LabelsAtEndsHaveAPieceOfTheirLineBeforeThem) {
+  const TempFolder folder;
+  ChartFigure figure = labelled_ends();
+  for (Line& line : figure.charts[0].lines) {
+    line.dots = true;
+    line.shape = MarkShape::square;
+  }
+  const DisplayImage page = painted(figure, folder);
+  const ChartLayout layout = lay_out(figure);
+  for (const EndLabel& label : layout.charts[0].end_labels) {
+    EXPECT_GT(count_color(page, label.sample, blue), 20);
+  }
 }
 
 TEST(ChartLayout, NumbersStandAtTheirTicks) {

@@ -155,7 +155,10 @@ TEST(LabPictures, LayoutsShowTheirLanes) {
   const auto strip = hand.pixels("lane2.slot0.read_out");
   // Smooth edges leave few pixels of just that colour: nearer to it than to anything else will do.
   const std::array shown{hand.state().comparison.lane, hand.state().comparison.other};
-  const std::array<ImU32, 4> colors{lane_color(shown[0]), lane_color(shown[1]), palette::text,
+  const auto color_of = [&](std::size_t lane) {
+    return estimator_color(hand.state().request.lanes.settings[lane].estimator);
+  };
+  const std::array<ImU32, 4> colors{color_of(shown[0]), color_of(shown[1]), palette::text,
                                     IM_COL32_BLACK};
   std::array<int, 4> nearest{};
   for (const Rgba8 pixel : strip) {

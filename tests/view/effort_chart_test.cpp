@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/view/estimator_look.h"
 #include "tests/view/snapshot_cases.h"
 
 namespace quartet {
@@ -46,14 +47,13 @@ Snapshot example() {
 EffortChart against(Effort effort) {
   EffortChart what;
   what.effort = effort;
-  what.colors = {Rgba8{1, 0, 0}, Rgba8{2, 0, 0}, Rgba8{3, 0, 0}, Rgba8{4, 0, 0}};
   return what;
 }
 
-const Line& line_of(const Chart& chart, int id, bool dashed = false) {
+const Line& line_of(const Chart& chart, int id) {
   static const Line none;
   for (const Line& line : chart.lines) {
-    if (line.id == id && line.dashed == dashed) {
+    if (line.id == id) {
       return line;
     }
   }
@@ -65,7 +65,10 @@ TEST(EffortChart, HasALineALaneWithAPointAPass) {
   const Chart chart = effort_chart(example(), against(Effort::seconds));
   for (int lane = 0; lane < 2; ++lane) {
     const Line& line = line_of(chart, lane);
-    EXPECT_EQ(line.color, (Rgba8{std::uint8_t(lane + 1), 0, 0}));
+    const EstimatorLook& look = look_of(lanes[std::size_t(lane)]);
+    EXPECT_EQ(line.color, look.screen);
+    EXPECT_EQ(line.shape, look.shape);
+    EXPECT_EQ(line.dash, look.dash);
     ASSERT_EQ(line.points.size(), 8u);
   }
   EXPECT_EQ(line_of(chart, 0).points[2], glm::dvec2(6.0, 1.0 / 6.0));
@@ -92,9 +95,16 @@ TEST(EffortChart, UniformSamplingIsShownAsFarAsItWasMeasured) {
   const Line& uniform = line_of(chart, -1);
   ASSERT_EQ(uniform.points.size(), 8u);
   EXPECT_EQ(uniform.points.back(), glm::dvec2(8.0, 1.0 / 8.0));
-  for (const Line& line : chart.lines) {
-    EXPECT_FALSE(line.dashed) << "nothing is guessed";
-  }
+  EXPECT_EQ(uniform.color, look_of(EstimatorId::uniform).screen);
+}
+
+TEST(EffortChart, LanesOfOneEstimatorDifferInTheirDashes) {
+  Snapshot snapshot = example();
+  snapshot.lanes[1].settings.estimator = snapshot.lanes[0].settings.estimator;
+  const Chart chart = effort_chart(snapshot, against(Effort::seconds));
+  EXPECT_EQ(line_of(chart, 0).color, line_of(chart, 1).color);
+  EXPECT_EQ(line_of(chart, 1).dash, Dash::dotted);
+  EXPECT_NE(line_of(chart, 0).dash, Dash::dotted);
 }
 
 TEST(EffortChart, TheNoiseFloorIsALevelInSight) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <span>
 
 #include "ui/paper/cairo_page.h"
@@ -14,32 +15,97 @@ namespace quartet {
 namespace {
 
 constexpr double line_width = 2.2;
-constexpr double dot_radius = 3.6;
+constexpr double dot_size = 4.5;
 constexpr double mark_radius = 7.0;
 
 void set_color(cairo_t* cairo, Rgba8 color) {
   cairo_set_source_rgba(cairo, color.r / 255.0, color.g / 255.0, color.b / 255.0, color.a / 255.0);
 }
 
-void set_dashes(cairo_t* cairo, bool dashed) {
-  constexpr std::array dashes{8.0, 5.0};
-  cairo_set_dash(cairo, dashes.data(), dashed ? int(dashes.size()) : 0, 0.0);
+void set_dashes(cairo_t* cairo, Dash dash) {
+  static constexpr std::array dashed{8.0, 5.0};
+  static constexpr std::array dash_dot{10.0, 4.0, 2.0, 4.0};
+  static constexpr std::array dotted{2.0, 4.0};
+  std::span<const double> pattern;
+  switch (dash) {
+    case Dash::solid:
+      break;
+    case Dash::dashed:
+      pattern = dashed;
+      break;
+    case Dash::dash_dot:
+      pattern = dash_dot;
+      break;
+    case Dash::dotted:
+      pattern = dotted;
+      break;
+  }
+  cairo_set_dash(cairo, pattern.data(), int(pattern.size()), 0.0);
+}
+
+/// Whether it is made of strokes, and has nothing to fill.
+bool is_open(MarkShape shape) {
+  return shape == MarkShape::cross;
+}
+
+/// Of about the same area whatever the shape.
+void trace_shape(cairo_t* cairo, glm::dvec2 at, MarkShape shape, double r) {
+  cairo_new_path(cairo);
+  const auto polygon = [&](std::initializer_list<glm::dvec2> corners) {
+    for (const glm::dvec2& corner : corners) {
+      cairo_line_to(cairo, at.x + r * corner.x, at.y + r * corner.y);
+    }
+    cairo_close_path(cairo);
+  };
+  switch (shape) {
+    case MarkShape::dot:
+      cairo_arc(cairo, at.x, at.y, 0.8 * r, 0.0, 2.0 * M_PI);
+      break;
+    case MarkShape::square:
+      polygon({{-0.72, -0.72}, {0.72, -0.72}, {0.72, 0.72}, {-0.72, 0.72}});
+      break;
+    case MarkShape::triangle:
+      polygon({{0.0, -1.0}, {0.95, 0.7}, {-0.95, 0.7}});
+      break;
+    case MarkShape::wedge:
+      polygon({{0.0, 1.0}, {0.95, -0.7}, {-0.95, -0.7}});
+      break;
+    case MarkShape::diamond:
+      polygon({{0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}});
+      break;
+    case MarkShape::cross:
+      cairo_move_to(cairo, at.x - 0.7 * r, at.y - 0.7 * r);
+      cairo_line_to(cairo, at.x + 0.7 * r, at.y + 0.7 * r);
+      cairo_move_to(cairo, at.x - 0.7 * r, at.y + 0.7 * r);
+      cairo_line_to(cairo, at.x + 0.7 * r, at.y - 0.7 * r);
+      break;
+  }
+}
+
+/// In the colour that is set.
+void paint_shape(cairo_t* cairo, glm::dvec2 at, MarkShape shape, double r) {
+  trace_shape(cairo, at, shape, r);
+  if (is_open(shape)) {
+    cairo_set_line_width(cairo, 1.6);
+    cairo_stroke(cairo);
+  } else {
+    cairo_fill(cairo);
+  }
 }
 
 void stroke(cairo_t* cairo, std::span<const glm::dvec2> points, const Line& line) {
   set_color(cairo, line.color);
   cairo_set_line_width(cairo, line_width * double(line.width));
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-  set_dashes(cairo, line.dashed);
+  set_dashes(cairo, line.dash);
   for (const glm::dvec2& point : points) {
     cairo_line_to(cairo, point.x, point.y);
   }
   cairo_stroke(cairo);
-  set_dashes(cairo, false);
+  set_dashes(cairo, Dash::solid);
   if (line.dots) {
     for (const glm::dvec2& point : points) {
-      cairo_arc(cairo, point.x, point.y, dot_radius, 0.0, 2.0 * M_PI);
-      cairo_fill(cairo);
+      paint_shape(cairo, point, line.shape, dot_size);
     }
   }
 }
@@ -53,32 +119,13 @@ void stroke_level(cairo_t* cairo, double left, double right, double y, Rgba8 col
   cairo_move_to(cairo, left, std::round(y));
   cairo_line_to(cairo, right, std::round(y));
   cairo_stroke(cairo);
-  set_dashes(cairo, false);
+  set_dashes(cairo, Dash::solid);
 }
 
 /// With a rim of paper, so that it is seen on a line of its own colour.
 void fill_mark(cairo_t* cairo, glm::dvec2 at, const PointMark& mark) {
-  const double r = mark_radius;
-  cairo_new_path(cairo);
-  switch (mark.shape) {
-    case MarkShape::dot:
-      cairo_arc(cairo, at.x, at.y, 0.8 * r, 0.0, 2.0 * M_PI);
-      break;
-    case MarkShape::diamond:
-      cairo_move_to(cairo, at.x, at.y - r);
-      cairo_line_to(cairo, at.x + r, at.y);
-      cairo_line_to(cairo, at.x, at.y + r);
-      cairo_line_to(cairo, at.x - r, at.y);
-      cairo_close_path(cairo);
-      break;
-    case MarkShape::cross:
-      cairo_move_to(cairo, at.x - 0.7 * r, at.y - 0.7 * r);
-      cairo_line_to(cairo, at.x + 0.7 * r, at.y + 0.7 * r);
-      cairo_move_to(cairo, at.x - 0.7 * r, at.y + 0.7 * r);
-      cairo_line_to(cairo, at.x + 0.7 * r, at.y - 0.7 * r);
-      break;
-  }
-  const bool open = mark.shape == MarkShape::cross;
+  trace_shape(cairo, at, mark.shape, mark_radius);
+  const bool open = is_open(mark.shape);
   cairo_set_source_rgb(cairo, 1, 1, 1);
   cairo_set_line_width(cairo, open ? 5.0 : 3.0);
   cairo_stroke_preserve(cairo);
@@ -190,18 +237,39 @@ void paint_inner_texts(cairo_t* cairo, const PlacedChart& placed, double size) {
   }
 }
 
+/// A piece of a line, with its mark in the middle.
+void paint_line_sample(cairo_t* cairo, const Line& line, const std::array<glm::dvec2, 2>& ends) {
+  Line plain = line;
+  plain.dots = false;
+  stroke(cairo, ends, plain);
+  if (line.dots) {
+    paint_shape(cairo, 0.5 * (ends[0] + ends[1]), line.shape, dot_size);
+  }
+}
+
+/// Labels beside a chart, each joined to its line by a hairline of the line's colour.
+void paint_end_labels(cairo_t* cairo, const PlacedChart& placed) {
+  for (const EndLabel& label : placed.end_labels) {
+    const double middle = label.sample.y + label.sample.height / 2;
+    Rgba8 pale = label.line->color;
+    pale.a = 110;
+    set_color(cairo, pale);
+    cairo_set_line_width(cairo, 0.9);
+    cairo_move_to(cairo, label.from.x, label.from.y);
+    cairo_line_to(cairo, placed.area.right(), std::lerp(label.from.y, middle, 0.5));
+    cairo_line_to(cairo, label.sample.x, middle);
+    cairo_stroke(cairo);
+    paint_line_sample(cairo, *label.line,
+                      {glm::dvec2(label.sample.x, middle), {label.sample.right(), middle}});
+  }
+}
+
 void paint_sample(cairo_t* cairo, const LegendEntry& entry) {
   const Rect& box = entry.box;
   const double middle = box.y + box.height / 2;
   const std::array ends{glm::dvec2(box.x, middle), glm::dvec2(box.right(), middle)};
   if (const auto* line = std::get_if<Line>(&entry.sample)) {
-    Line plain = *line;
-    plain.dots = false;
-    stroke(cairo, ends, plain);
-    if (line->dots) {
-      cairo_arc(cairo, box.x + box.width / 2, middle, dot_radius, 0.0, 2.0 * M_PI);
-      cairo_fill(cairo);
-    }
+    paint_line_sample(cairo, *line, ends);
   } else if (const auto* band = std::get_if<Band>(&entry.sample)) {
     set_color(cairo, band->color);
     cairo_rectangle(cairo, box.x, box.y + 0.2 * box.height, box.width, 0.6 * box.height);
@@ -217,6 +285,7 @@ void paint(cairo_t* cairo, const ChartLayout& layout) {
   for (const PlacedChart& chart : layout.charts) {
     paint_grid(cairo, chart);
     paint_data(cairo, chart);
+    paint_end_labels(cairo, chart);
     paint_inner_texts(cairo, chart, layout.line_size);
   }
   for (const LegendEntry& entry : layout.legend) {

@@ -9,12 +9,15 @@
 namespace quartet {
 
 /// Charts for a report, on paper: in rows from the top left, all of one size, with one legend for
-/// all: where the last row has room, else below. Text is UTF-8.
+/// all: where the last row has room, else below. A line whose label stands at its end is not in it.
+/// Text is UTF-8.
 struct ChartFigure {
   std::string title;
   std::vector<std::string> lines;  ///< below the title
   std::vector<Chart> charts;
   int columns = 2;
+  double area_width = 640.0;  ///< of a chart between its axes, in pixels of the PNG
+  double area_height = 470.0;
   std::string footer;  ///< settings, command line
 };
 

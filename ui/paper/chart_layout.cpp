@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "ui/paper/figure_text.h"
+#include "ui/paper/label_places.h"
 
 namespace quartet {
 namespace {
@@ -11,9 +13,14 @@ namespace {
 constexpr double line_size = 17.0;  // size of the text, in pixels of the PNG
 constexpr double chart_line_height = 1.35;
 constexpr double chart_gray = 0.35;
-constexpr double area_width = 640.0;
-constexpr double area_height = 470.0;
 constexpr double sample_width = 2.4 * line_size;
+constexpr double leader_width = 1.2 * line_size;  // from a chart to the labels of its lines
+
+bool is_seen(const Chart& chart, const glm::dvec2& point) {
+  const double x = axis_position(chart.x, point.x);
+  const double y = axis_position(chart.y, point.y);
+  return x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0;
+}
 
 /// Puts charts and texts into a layout, from the top down.
 class ChartBuilder {
@@ -25,9 +32,19 @@ class ChartBuilder {
       for (const Tick& tick : chart.y.ticks) {
         tick_width_ = std::max(tick_width_, measure_.width(tick.label, tick_style()));
       }
+      for (const Line& line : chart.lines) {
+        if (line.label_at_end) {
+          label_width_ =
+              std::max(label_width_, measure_.width(clean_text(line.label), tick_style()));
+        }
+      }
+    }
+    if (label_width_ > 0.0) {
+      label_width_ = std::min(std::ceil(label_width_), 20.0 * line_size);
+      label_room_ = leader_width + end_sample + 0.4 * line_size + label_width_;
     }
     tick_width_ = std::ceil(tick_width_ + 0.6 * line_size);
-    cell_width_ = tick_width_ + area_width + line_size;
+    cell_width_ = tick_width_ + figure.area_width + label_room_ + line_size;
     page_width_ = columns_ * cell_width_ + (columns_ - 1) * gap;
   }
 
@@ -56,6 +73,7 @@ class ChartBuilder {
   static constexpr double margin = 1.6 * line_size;
   static constexpr double gap = 1.6 * line_size;
   static constexpr double legend_line = 1.5 * line_size;
+  static constexpr double end_sample = 1.9 * line_size;
 
   static TextStyle line_style() { return {line_size, false, chart_gray}; }
   static TextStyle tick_style() { return {0.9 * line_size, false, chart_gray}; }
@@ -92,14 +110,14 @@ class ChartBuilder {
     for (std::size_t i = first; i < end; ++i) {
       const double x = margin + double(i - first) * (cell_width_ + gap);
       add_chart(figure_.charts[i],
-                {std::round(x + tick_width_), area_top, area_width, area_height});
+                {std::round(x + tick_width_), area_top, figure_.area_width, figure_.area_height});
     }
     last_area_top_ = area_top;
-    y_ = area_top + area_height + 0.8 * line_size + 2 * chart_line_height * line_size;
+    y_ = area_top + figure_.area_height + 0.8 * line_size + 2 * chart_line_height * line_size;
   }
 
   void add_chart(const Chart& chart, const Rect& area) {
-    PlacedChart placed{&chart, area, {}, {}};
+    PlacedChart placed{&chart, area, {}, {}, {}};
     double taken = area.x - tick_width_;
     const double tick_top = area.bottom() + 0.7 * line_size;
     for (const Tick& tick : chart.x.ticks) {
@@ -128,7 +146,42 @@ class ChartBuilder {
       put(label[0], line_style(), area.x + (area.width - width) / 2,
           tick_top + chart_line_height * line_size);
     }
+    add_end_labels(placed);
     layout_.charts.push_back(std::move(placed));
+  }
+
+  /// To the right of the chart, in the order of the lines' ends from the top down.
+  void add_end_labels(PlacedChart& placed) {
+    for (const Line& line : placed.chart->lines) {
+      if (!line.label_at_end || line.label.empty() || line.points.empty()) {
+        continue;
+      }
+      // Of a line that is not seen at all, the place on the rim that is nearest to its end.
+      const auto seen =
+          std::find_if(line.points.rbegin(), line.points.rend(),
+                       [&](const glm::dvec2& point) { return is_seen(*placed.chart, point); });
+      const glm::dvec2 last = seen != line.points.rend() ? *seen : line.points.back();
+      const Rect& area = placed.area;
+      placed.end_labels.push_back({&line,
+                                   {std::clamp(placed.x(last.x), area.x, area.right()),
+                                    std::clamp(placed.y(last.y), area.y, area.bottom())},
+                                   {}});
+    }
+    std::ranges::stable_sort(placed.end_labels, {}, [](const EndLabel& l) { return l.from.y; });
+    const double height = chart_line_height * tick_style().size;
+    std::vector<double> wanted;
+    for (const EndLabel& label : placed.end_labels) {
+      wanted.push_back(label.from.y - 0.5 * height);
+    }
+    const std::vector<double> tops =
+        label_places(wanted, height, placed.area.y, placed.area.bottom());
+    const double left = placed.area.right() + leader_width;
+    for (std::size_t i = 0; i < tops.size(); ++i) {
+      EndLabel& label = placed.end_labels[i];
+      label.sample = {left, tops[i], end_sample, height};
+      const auto text = measure_.wrap(label.line->label, tick_style(), label_width_ + 1.0, 1);
+      put(text.at(0), tick_style(), left + end_sample + 0.4 * line_size, tops[i]);
+    }
   }
 
   /// Where the last row of charts leaves room for it, else below. In columns as wide as the widest
@@ -146,7 +199,7 @@ class ChartBuilder {
     const double column = lead + widest + 1.6 * line_size;
     const int taken = int(figure_.charts.size()) % columns_;
     const double left = margin + taken * (cell_width_ + gap);
-    const Rect beside{left, last_area_top_, margin + page_width_ - left, area_height};
+    const Rect beside{left, last_area_top_, margin + page_width_ - left, figure_.area_height};
     if (taken > 0 && column <= beside.width &&
         legend_height(int(entries.size()), column, beside.width) <= beside.height) {
       put_legend(entries, beside, column);
@@ -187,6 +240,8 @@ class ChartBuilder {
   ChartLayout layout_;
   int columns_ = 1;
   double tick_width_ = 0;
+  double label_width_ = 0;  // of the widest label at the end of a line
+  double label_room_ = 0;   // beside each chart
   double cell_width_ = 0;
   double page_width_ = 0;
   double last_area_top_ = 0;
@@ -198,6 +253,11 @@ class ChartBuilder {
 LegendEntries legend_of(const ChartFigure& figure) {
   LegendEntries entries;
   const auto add = [&](const auto& thing) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(thing)>, Line>) {
+      if (thing.label_at_end) {
+        return;
+      }
+    }
     const auto known = [&](const auto& entry) { return entry.first == thing.label; };
     if (!thing.label.empty() && std::ranges::none_of(entries, known)) {
       entries.emplace_back(thing.label, thing);

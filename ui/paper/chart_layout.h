@@ -18,12 +18,20 @@ struct LegendEntry {
   Rect box;             ///< of the sample
 };
 
+/// The label of a line, beside the chart: a piece of the line before the text.
+struct EndLabel {
+  const Line* line;
+  glm::dvec2 from;  ///< the last of the line's points that is seen, on the page
+  Rect sample;
+};
+
 /// One chart on the page.
 struct PlacedChart {
   const Chart* chart;
   Rect area;                 ///< between the axes, where data are painted
   std::vector<Tick> x_grid;  ///< ticks whose lines cross the area
   std::vector<Tick> y_grid;
+  std::vector<EndLabel> end_labels;
 
   double x(double value) const { return area.x + axis_position(chart->x, value) * area.width; }
   double y(double value) const {

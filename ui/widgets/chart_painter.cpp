@@ -92,13 +92,28 @@ void draw_ticks(const Ui& ui, const Mapping& map, const ScreenRect& box) {
   }
 }
 
+/// Lengths of dash and gap in turn, in the window's own pixels; none: solid.
+std::vector<float> dash_lengths(const Ui& ui, Dash dash) {
+  switch (dash) {
+    case Dash::solid:
+      break;
+    case Dash::dashed:
+      return {ui.px(5.0f), ui.px(3.0f)};
+    case Dash::dash_dot:
+      return {ui.px(7.0f), ui.px(3.0f), ui.px(2.0f), ui.px(3.0f)};
+    case Dash::dotted:
+      return {ui.px(2.0f), ui.px(3.0f)};
+  }
+  return {};
+}
+
 /// Dashes along a polyline, which go on around its corners.
-void draw_dashes(const Ui& ui, const std::vector<ImVec2>& points, ImU32 color) {
+void draw_dashes(const Ui& ui, const std::vector<ImVec2>& points, ImU32 color, Dash dash) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float period = ui.px(8.0f);
-  const float dash = ui.px(5.0f);
+  const std::vector<float> lengths = dash_lengths(ui, dash);
   constexpr float longest = 1e5f;  // one end lies nowhere on a logarithmic axis
-  float phase = 0.0f;              // since a dash began
+  std::size_t part = 0;            // of the pattern: dashes are even
+  float left = lengths.front();    // of it
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const ImVec2 a = points[i];
     const ImVec2 b = points[i + 1];
@@ -106,26 +121,41 @@ void draw_dashes(const Ui& ui, const std::vector<ImVec2>& points, ImU32 color) {
     if (!(length < longest)) {
       continue;
     }
-    const auto at = [&](float share) {
-      return ImVec2(a.x + (b.x - a.x) * share / length, a.y + (b.y - a.y) * share / length);
+    const auto at = [&](float way) {
+      return ImVec2(a.x + (b.x - a.x) * way / length, a.y + (b.y - a.y) * way / length);
     };
-    for (float begin = -phase; begin < length; begin += period) {
-      const float end = std::min(begin + dash, length);
-      if (end > 0.0f) {
-        list.AddLine(at(std::max(begin, 0.0f)), at(end), color, ui.px(1.5f));
+    for (float way = 0.0f; way < length;) {
+      const float end = std::min(way + left, length);
+      if (part % 2 == 0) {
+        list.AddLine(at(way), at(end), color, ui.px(1.5f));
+      }
+      left -= end - way;
+      way = end;
+      if (left <= 0.01f) {  // so that far ends move on, too
+        part = (part + 1) % lengths.size();
+        left = lengths[part];
       }
     }
-    phase = std::fmod(phase + length, period);
   }
 }
 
-void draw_mark(const Ui& ui, ImVec2 at, const PointMark& mark) {
+void draw_shape(const Ui& ui, ImVec2 at, MarkShape shape, float r, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 color = screen_color(mark.color);
-  const float r = ui.px(4.5f);
-  switch (mark.shape) {
+  switch (shape) {
     case MarkShape::dot:
       list.AddCircleFilled(at, r, color);
+      break;
+    case MarkShape::square:
+      list.AddRectFilled({at.x - 0.9f * r, at.y - 0.9f * r}, {at.x + 0.9f * r, at.y + 0.9f * r},
+                         color);
+      break;
+    case MarkShape::triangle:
+      list.AddTriangleFilled({at.x, at.y - 1.2f * r}, {at.x + 1.1f * r, at.y + 0.9f * r},
+                             {at.x - 1.1f * r, at.y + 0.9f * r}, color);
+      break;
+    case MarkShape::wedge:
+      list.AddTriangleFilled({at.x, at.y + 1.2f * r}, {at.x + 1.1f * r, at.y - 0.9f * r},
+                             {at.x - 1.1f * r, at.y - 0.9f * r}, color);
       break;
     case MarkShape::diamond:
       list.AddQuadFilled({at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y},
@@ -165,7 +195,7 @@ void draw_data(const Ui& ui, const Mapping& map) {
   }
   for (const Level& level : map.chart.levels) {
     const float y = map.y(level.value);
-    draw_dashes(ui, {{area.x, y}, {area.right(), y}}, screen_color(level.color));
+    draw_dashes(ui, {{area.x, y}, {area.right(), y}}, screen_color(level.color), Dash::dashed);
     text_at(ui.small, area.x + ui.px(4.0f), y - font_size(ui.small) - ui.px(2.0f),
             screen_color(level.color), level.label);
   }
@@ -176,19 +206,20 @@ void draw_data(const Ui& ui, const Mapping& map) {
     for (const glm::dvec2& point : line.points) {
       points.emplace_back(map.x(point.x), map.y(point.y));
     }
-    if (line.dashed) {
-      draw_dashes(ui, points, color);
+    if (line.dash != Dash::solid) {
+      draw_dashes(ui, points, color, line.dash);
     } else {
       list.AddPolyline(points.data(), int(points.size()), color, 0, ui.px(1.5f * line.width));
     }
     if (line.dots) {
       for (const ImVec2& point : points) {
-        list.AddCircleFilled(point, ui.px(2.5f), color);
+        draw_shape(ui, point, line.shape, ui.px(2.5f), color);
       }
     }
   }
   for (const PointMark& mark : map.chart.marks) {
-    draw_mark(ui, {map.x(mark.at.x), map.y(mark.at.y)}, mark);
+    draw_shape(ui, {map.x(mark.at.x), map.y(mark.at.y)}, mark.shape, ui.px(4.5f),
+               screen_color(mark.color));
   }
 }
 

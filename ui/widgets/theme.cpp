@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "renderer/view/estimator_look.h"
+
 namespace quartet {
 namespace {
 
@@ -40,8 +42,9 @@ ImVec4 vec4(ImU32 color) {
 
 }  // namespace
 
-ImU32 lane_color(std::size_t lane) {
-  return palette::lanes[lane % palette::lanes.size()];
+ImU32 estimator_color(EstimatorId estimator) {
+  const Rgba8 color = look_of(estimator).screen;
+  return IM_COL32(color.r, color.g, color.b, 255);
 }
 
 ImU32 with_alpha(ImU32 color, float alpha) {
@@ -101,7 +104,7 @@ void set_theme(Ui& ui, float scale, const FontFolders& folders) {
   set(ImGuiCol_Header, hovered);
   set(ImGuiCol_HeaderHovered, hovered);
   set(ImGuiCol_HeaderActive, active);
-  set(ImGuiCol_CheckMark, palette::lanes[1]);
+  set(ImGuiCol_CheckMark, palette::check);
   set(ImGuiCol_Separator, palette::line);
   set(ImGuiCol_TextSelectedBg, IM_COL32(60, 110, 180, 200));
   set(ImGuiCol_ModalWindowDimBg, IM_COL32(0, 0, 0, 120));

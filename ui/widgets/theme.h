@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "renderer/adaptive/estimators/estimator.h"
 #include "ui/widgets/screen_rect.h"
 
 namespace quartet {
@@ -23,14 +24,13 @@ inline constexpr ImU32 faint = IM_COL32(92, 99, 112, 255);
 inline constexpr ImU32 error = IM_COL32(255, 118, 108, 255);
 inline constexpr ImU32 good = IM_COL32(110, 214, 150, 255);
 inline constexpr ImU32 shade = IM_COL32(8, 9, 12, 190);  ///< under text on a picture
-inline constexpr std::array<ImU32, 4> lanes{
-    IM_COL32(242, 166, 66, 255), IM_COL32(94, 178, 246, 255), IM_COL32(60, 206, 158, 255),
-    IM_COL32(232, 130, 184, 255)};
+inline constexpr ImU32 check = IM_COL32(94, 178, 246, 255);
 inline constexpr std::array<ImU32, 3> channels{
     IM_COL32(255, 104, 96, 255), IM_COL32(104, 212, 104, 255), IM_COL32(110, 158, 255, 255)};
 }  // namespace palette
 
-ImU32 lane_color(std::size_t lane);
+/// As everywhere: look_of().
+ImU32 estimator_color(EstimatorId estimator);
 ImU32 with_alpha(ImU32 color, float alpha);
 
 /// What every part of the window draws with.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "renderer/measure/metrics.h"
+#include "renderer/view/estimator_look.h"
 #include "renderer/view/quality_chart.h"
 #include "ui/widgets/chart_painter.h"
 #include "ui/widgets/table_combo.h"
@@ -114,9 +115,6 @@ void draw_curves(LabFrame& frame, const ScreenRect& box) {
   }
   EffortChart curves;
   curves.effort = frame.state.dock.effort;
-  for (std::size_t i = 0; i < curves.colors.size(); ++i) {
-    curves.colors[i] = rgba_of(lane_color(i));
-  }
   curves.noise_floor = noise_floor(frame, frame.snapshot->metric);
   paint_chart(frame.ui, "dock.chart", effort_chart(*frame.snapshot, curves), box);
 }
@@ -138,7 +136,7 @@ void draw_qualities(LabFrame& frame, ScreenRect box) {
     paint_chart(
         ui, fmt::format("dock.quality{}", i),
         quality_chart((*qualities)[i], std::string(estimator(lane.settings.estimator).label),
-                      rgba_of(lane_color(i))),
+                      look_of(lane.settings.estimator).screen),
         box.cut_left(width));
     box.cut_left(gap);
   }

@@ -79,6 +79,10 @@ struct LabFrame {
   /// the same one, whichever is drawn first.
   std::optional<glm::ivec2> hovered = std::nullopt;
 
+  /// That of its estimator: two lanes of one estimator share it, and are told apart by number.
+  ImU32 lane_color(std::size_t index) const {
+    return estimator_color(state.request.lanes.settings[index].estimator);
+  }
   /// The lane's numbers, if there are any yet.
   const LaneSnapshot* lane(std::size_t index) const {
     return snapshot && index < snapshot->lanes.size() ? &snapshot->lanes[index] : nullptr;

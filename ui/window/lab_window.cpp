@@ -60,13 +60,13 @@ void draw_lane_tabs(LabFrame& frame, ScreenRect box) {
     const std::string text =
         std::to_string(i + 1) + "  " +
         std::string(estimator(frame.state.request.lanes.settings[i].estimator).label);
-    if (button("tab" + std::to_string(i), text, lane_color(i), i == comparison.lane)) {
+    if (button("tab" + std::to_string(i), text, frame.lane_color(i), i == comparison.lane)) {
       comparison.choose(i);
     }
   }
   x += ui.px(16.0f);
   const std::string b = "B: lane " + std::to_string(comparison.other + 1);
-  if (button("other", b, lane_color(comparison.other), true)) {
+  if (button("other", b, frame.lane_color(comparison.other), true)) {
     do {
       comparison.other = (comparison.other + 1) % frame.state.request.lanes.settings.size();
     } while (comparison.other == comparison.lane);

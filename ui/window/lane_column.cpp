@@ -41,7 +41,7 @@ void draw_charts(LabFrame& frame, std::size_t lane, const ColumnLayout& layout) 
   if (!shown) {
     return;
   }
-  const Rgba8 accent = rgba_of(lane_color(lane));
+  const Rgba8 accent = rgba_of(frame.lane_color(lane));
   const std::string name = fmt::format("lane{}.", lane);
   // Ahead of the lane while one is dragged; of another estimator they would mean nothing here.
   LaneSettings& wanted = frame.state.request.lanes.settings[lane];
@@ -83,7 +83,7 @@ void draw_lane_column(LabFrame& frame, std::size_t lane, const ColumnLayout& lay
   ImGui::PushID(int(lane));
   const ScreenRect& panel = layout.panel;
   ImGui::GetWindowDrawList()->AddRectFilled(
-      {panel.x, panel.y}, {panel.right(), panel.y + frame.ui.px(3.0f)}, lane_color(lane));
+      {panel.x, panel.y}, {panel.right(), panel.y + frame.ui.px(3.0f)}, frame.lane_color(lane));
   draw_lane_header(frame, lane, layout.header);
   const std::size_t source = frame.state.hold_first ? 0 : lane;
   const bool wipe = frame.state.layout == LabLayout::large && frame.state.comparison.wipe;

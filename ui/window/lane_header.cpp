@@ -131,7 +131,7 @@ bool edit_thresholds(Ui& ui, std::size_t lane, LaneSettings& settings, ScreenRec
   for (int c = 0; c < row.channels; ++c) {
     const auto channel = std::size_t(c);
     float x = box.x + float(c) * (part + part_gap);
-    const ImU32 color = one ? lane_color(lane) : palette::channels[channel];
+    const ImU32 color = one ? estimator_color(row.key) : palette::channels[channel];
     const std::string label = one ? "threshold" : channel_names[channel];
     text_at(one ? ui.body : ui.bold, x, text_y, one ? palette::dim : color, label);
     x += one ? text_width(ui.body, label) + ui.px(8.0f) : ui.px(13.0f);

@@ -110,8 +110,8 @@ bool edit_header_parameter(Ui& ui, std::size_t lane, LaneSettings& settings, Scr
   const float track = box.width - field - gap - indent;
   bool changed = false;
   if (track >= ui.px(shortest_slider)) {
-    changed =
-        slider(ui, name, value, {parameter.low, parameter.usual_high}, track, lane_color(lane));
+    changed = slider(ui, name, value, {parameter.low, parameter.usual_high}, track,
+                     estimator_color(settings.estimator));
     tooltip(ui, std::string(row->tooltip));
   }
   ImGui::SetCursorScreenPos({box.right() - field, box.y});

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <vector>
 
 #include "renderer/measure/metrics/metric_rows.h"
@@ -21,13 +22,18 @@ struct Region {
   glm::dvec3 r{0.0};
   double pixels = 0.0;
 
+  /// Channel by channel, over what it is compared with.
+  glm::dvec3 relative_difference() const {
+    const glm::dvec3 right = r / pixels;
+    return (x / pixels - right) / sqrt(right * right + 0.01);
+  }
+
   /// Noise of pixels that do not know of each other is averaged away within a region, by its number
   /// of pixels, with which the result is multiplied; light that is lost everywhere is not. So this
   /// is relMSE for noise, and as many times the squared bias as the region has pixels.
   double error() const {
-    const glm::dvec3 right = r / pixels;
-    const glm::dvec3 off = x / pixels - right;
-    const glm::dvec3 relative = off * off / (right * right + 0.01);
+    const glm::dvec3 off = relative_difference();
+    const glm::dvec3 relative = off * off;
     return pixels * (relative.x + relative.y + relative.z) / 3.0;
   }
 };
@@ -66,6 +72,21 @@ double regional_error(const RadianceImage& test, const RadianceImage& reference)
   return sum / double(test.size());
 }
 
+/// So that the mean of the squares of all regions, those that are empty too, is the metric.
+std::vector<float> regional_errors(const RadianceImage& test, const RadianceImage& reference) {
+  const std::vector<Region> regions = regions_of(test, reference);
+  std::vector<float> errors;
+  for (const Region& region : regions) {
+    const double weight = region.pixels * std::sqrt(double(regions.size()) / double(test.size()));
+    const glm::dvec3 off =
+        region.pixels > 0.0 ? weight * region.relative_difference() : glm::dvec3(0.0);
+    for (int c = 0; c < 3; ++c) {
+      errors.push_back(float(off[c]));
+    }
+  }
+  return errors;
+}
+
 }  // namespace
 
 constexpr Metric relmse_regions_metric{
@@ -81,6 +102,7 @@ constexpr Metric relmse_regions_metric{
     .floor_by_halves = true,
     .compute = regional_error,
     .map = regional_map,
-    .map_quantity = "n (x − r)²/(r² + 0.01) of the pixel's region"};
+    .map_quantity = "n (x − r)²/(r² + 0.01) of the pixel's region",
+    .errors = regional_errors};
 
 }  // namespace quartet

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -10,6 +11,10 @@ namespace {
 
 double relative_squared(double x, double r) {
   return (x - r) * (x - r) / (r * r + 0.01);
+}
+
+double relative_difference(double x, double r) {
+  return (x - r) / std::sqrt(r * r + 0.01);
 }
 
 double relmse_trimmed(const RadianceImage& test, const RadianceImage& reference) {
@@ -41,7 +46,8 @@ constexpr Metric relmse_metric{.key = MetricId::relmse,
                                .scale = MetricScale::squared_error,
                                .compute = mean_over_values<relative_squared>,
                                .map = map_of<relative_squared>,
-                               .map_quantity = relative_squared_error};
+                               .map_quantity = relative_squared_error,
+                               .errors = errors_of<relative_difference>};
 
 constexpr Metric relmse_trimmed_metric{
     .key = MetricId::relmse_trimmed,

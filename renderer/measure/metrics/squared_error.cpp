@@ -6,6 +6,10 @@
 namespace quartet {
 namespace {
 
+double difference(double x, double r) {
+  return x - r;
+}
+
 double rmse(const RadianceImage& test, const RadianceImage& reference) {
   return std::sqrt(mean_over_values<squared_difference>(test, reference));
 }
@@ -23,7 +27,8 @@ constexpr Metric mse_metric{.key = MetricId::mse,
                             .floor_by_halves = true,
                             .compute = mean_over_values<squared_difference>,
                             .map = map_of<squared_difference>,
-                            .map_quantity = squared_error};
+                            .map_quantity = squared_error,
+                            .errors = errors_of<difference>};
 
 constexpr Metric rmse_metric{.key = MetricId::rmse,
                              .id = "rmse",

@@ -82,6 +82,21 @@ double mean_over_values(const RadianceImage& test, const RadianceImage& referenc
   return std::accumulate(sums.begin(), sums.end(), 0.0) / double(x.size());
 }
 
+/// A Metric::errors, a number a channel. `error` is what a channel's term is the square of.
+template <MetricTerm error>
+std::vector<float> errors_of(const RadianceImage& test, const RadianceImage& reference) {
+  require_comparable(test, reference);
+  const std::span<const float> x = channels_of(test);
+  const std::span<const float> r = channels_of(reference);
+  std::vector<float> errors(x.size());
+  for_metric_blocks(test.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+      errors[i] = float(error(double(x[i]), double(r[i])));
+    }
+  });
+  return errors;
+}
+
 /// A Metric::map: the mean of each pixel's channels.
 template <MetricTerm term>
 ScalarImage map_of(const RadianceImage& test, const RadianceImage& reference) {

@@ -43,7 +43,8 @@ std::vector<TableRow> lines_of(const LabFrame& frame) {
   for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
     const LaneSnapshot& lane = snapshot.lanes[i];
     lines.push_back({fmt::format("{}  {}", i + 1, estimator(lane.settings.estimator).label),
-                     lane_color(i), &lane, current ? &frame.evaluation.lanes[i] : nullptr,
+                     estimator_color(lane.settings.estimator), &lane,
+                     current ? &frame.evaluation.lanes[i] : nullptr,
                      times_uniform(snapshot, i, frame.state.dock.effort)});
   }
   if (snapshot.baseline) {

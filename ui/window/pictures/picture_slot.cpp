@@ -284,7 +284,7 @@ void draw_picture_slot(LabFrame& frame, const PictureSlot& slot) {
           frame.snapshot && frame.snapshot->reference ? "reference" : "there is no reference");
   } else if (slot.source != slot.lane) {
     badge(frame.ui, slot.box.x + frame.ui.px(5.0f), slot.box.y + frame.ui.px(28.0f),
-          lane_color(slot.source), fmt::format("lane {}", slot.source + 1));
+          frame.lane_color(slot.source), fmt::format("lane {}", slot.source + 1));
   }
   list.ChannelsSetCurrent(0);
   const bool drawn = picture && !picture->image.empty();
@@ -335,11 +335,11 @@ void draw_wipe_slot(LabFrame& frame, const PictureSlot& a, const PictureSlot& b)
     draw_wipe_read_out(frame, a, b, *pixel);
   }
   const float y = a.box.y + frame.ui.px(6.0f);
-  badge(frame.ui, line + frame.ui.px(6.0f), y, lane_color(b.source),
+  badge(frame.ui, line + frame.ui.px(6.0f), y, frame.lane_color(b.source),
         fmt::format("B: lane {}", b.source + 1));
   const std::string left = fmt::format("A: lane {}", a.source + 1);
   badge(frame.ui, line - frame.ui.px(16.0f) - text_width(frame.ui.small, left), y,
-        lane_color(a.source), left);
+        frame.lane_color(a.source), left);
 }
 
 }  // namespace quartet

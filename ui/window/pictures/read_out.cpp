@@ -81,7 +81,7 @@ void draw_wipe_read_out(LabFrame& frame, const PictureSlot& a, const PictureSlot
     for (const std::string& rest : text.rest) {
       lines.push_back(fmt::format("{}: lane {}   {}   {}", name, source + 1, text.radiance, rest));
     }
-    return std::pair(lane_color(source),
+    return std::pair(frame.lane_color(source),
                      fitting_text(frame.ui.small, lines, read_out_room(frame.ui, a)));
   };
   draw_read_out_strip(frame, a, {line("A", a.source), line("B", b.source)});
