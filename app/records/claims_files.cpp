@@ -164,16 +164,18 @@ std::string claims_text(const ClaimsReport& report) {
   const std::vector<Quantity> all = quantities(report);
   const std::size_t seeds = report.data.seeds.size();
   std::string text = fmt::format(
-      "{}, {}x{}, {}, {} passes, {} seed{}, 95 % intervals over the seeds{}; reference of {} "
+      "{}, {}x{}, {}, {} passes, {} seed{}, 95 % intervals over the seeds{}, of findings all "
+      "together; luminance\nas the report has it, {:g} R + {:g} G + {:g} B; reference of {} "
       "spp\n\n",
       report.run.scene->scene().name, report.run.settings.width, report.run.settings.height,
       sampler_row(report.run.settings.sampler).id, report.passes, seeds, seeds == 1 ? "" : "s",
-      seeds == 1 ? " (one seed has none)" : "", report.reference_spp);
+      seeds == 1 ? " (one seed has none)" : "", report_weights.r, report_weights.g,
+      report_weights.b, report.reference_spp);
   add_region_tables(all, text);
   add_totals(all, text);
   for (const Claim& claim : judge_claims(report.data)) {
-    text += fmt::format("Finding {}: {}\n  {}\n", claim.number, verdict_text(claim.verdict),
-                        claim.text);
+    text += fmt::format("{} {}: {}\n  {}\n", claim.added ? "Added to finding" : "Finding",
+                        claim.number, verdict_text(claim.verdict), claim.text);
     for (const ClaimCheck& check : claim.checks) {
       text += "  " + check_text(check) + '\n';
     }
@@ -204,8 +206,10 @@ std::string claims_json(const ClaimsReport& report) {
   }
   json["findings"] = nlohmann::ordered_json::array();
   for (const Claim& claim : judge_claims(report.data)) {
-    nlohmann::ordered_json entry{
-        {"number", claim.number}, {"text", claim.text}, {"verdict", verdict_text(claim.verdict)}};
+    nlohmann::ordered_json entry{{"number", claim.number},
+                                 {"added", claim.added},
+                                 {"text", claim.text},
+                                 {"verdict", verdict_text(claim.verdict)}};
     for (const ClaimCheck& check : claim.checks) {
       nlohmann::ordered_json condition = interval_json(check.value);
       condition["condition"] = check.text;

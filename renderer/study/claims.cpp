@@ -24,6 +24,31 @@ std::size_t index_of(RegionId id) {
   return std::size_t(&region(id) - regions().data());
 }
 
+/// What radiance is multiplied with so that our luminance of it is the report's of what it was.
+/// Contrast is a ratio within a channel and stays what it is; the divergences know nothing else of
+/// a pixel than its luminance.
+const glm::vec3 weighing =
+    report_weights / glm::vec3(luminance(1.0f, 0.0f, 0.0f), luminance(0.0f, 1.0f, 0.0f),
+                               luminance(0.0f, 0.0f, 1.0f));
+
+SampleSource weighed(SampleSource source) {
+  return [source = std::move(source)](std::span<SampleJob> jobs) {
+    source(jobs);
+    for (SampleJob& job : jobs) {
+      for (glm::vec3& sample : job.radiance) {
+        sample *= weighing;
+      }
+    }
+  };
+}
+
+RadianceImage scaled(RadianceImage picture, const glm::vec3& factor) {
+  for (glm::vec3& pixel : picture.pixels()) {
+    pixel *= factor;
+  }
+  return picture;
+}
+
 /// Follows one run pass by pass and sees what the pass after a firefly does about it.
 class FireflyWatch {
  public:
@@ -141,14 +166,15 @@ class ClaimLab {
       : world_(world),
         regions_(region_of_pixel),
         stop_(std::move(stop)),
-        source_(world.source(seed)),
+        source_(weighed(world.source(seed))),
+        weighed_truth_(scaled(*world.reference, weighing)),
         lab_(source_, world.width, world.height, std::span(&uniform_, 1),
              lab_options(world, seed)) {}
 
   bool run_criterion(EstimatorId id, std::uint32_t passes, const std::vector<std::size_t>& pixels,
                      ClaimRun& run) {
     lab_.set_settings(0, default_settings(id));
-    FireflyWatch watch(lab_, source_, *world_.reference, regions_);
+    FireflyWatch watch(lab_, source_, weighed_truth_, regions_);
     std::vector<std::uint16_t> wanted = lane().plan().wanted;
     const bool ended = run_lab(lab_, stop_, [&] {
       watch.look(wanted);
@@ -160,7 +186,7 @@ class ClaimLab {
     }
     run.firefly = watch.response();
     run.seconds = lane().history().back().seconds;
-    const RadianceImage picture = lane().film().image();
+    const RadianceImage picture = this->picture();
     run.relmse = error(MetricId::relmse, picture);
     run.relmse_top = relmse_top_share(picture, *world_.reference);
     run.flip = error(MetricId::flip, picture);
@@ -184,7 +210,7 @@ class ClaimLab {
     const bool ended = run_lab(lab_, stop_, [&] {
       const double seconds = lane().history().back().seconds;
       first = before > 0.0 ? first : seconds;
-      RadianceImage picture = lane().film().image();
+      RadianceImage picture = this->picture();
       relmse.push_back({seconds, error(MetricId::relmse, picture)});
       // FLIP takes longer than a pass: only on both sides of where it is asked for.
       const bool is_asked = std::ranges::any_of(seed.runs, [&](const ClaimRun& run) {
@@ -217,6 +243,9 @@ class ClaimLab {
   bool partial() const { return lab_.partial(); }
 
  private:
+  /// As it is without the weights.
+  RadianceImage picture() const { return scaled(lane().film().image(), 1.0f / weighing); }
+
   double error(MetricId id, const RadianceImage& picture) const {
     return metric(id).compute(picture, *world_.reference);
   }
@@ -225,6 +254,7 @@ class ClaimLab {
   const std::vector<RegionId>& regions_;
   const std::stop_token stop_;
   const SampleSource source_;
+  const RadianceImage weighed_truth_;
   const LaneSettings uniform_ = default_settings(EstimatorId::uniform);
   Lab lab_;
 };
@@ -263,13 +293,16 @@ std::optional<ClaimData> measure_claims(
     measured.lowest_correlation =
         std::min({correlation(maps[1], maps[2]), correlation(maps[1], maps[3]),
                   correlation(maps[2], maps[3])});
+    measured.highest_with_contrast =
+        std::max({correlation(maps[0], maps[1]), correlation(maps[0], maps[2]),
+                  correlation(maps[0], maps[3])});
     data.seeds.push_back(std::move(measured));
   }
   return data;
 }
 
-Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value) {
-  constexpr double p = 0.05;
+Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value,
+                    double p) {
   std::vector<double> values;
   values.reserve(data.seeds.size());
   for (const ClaimSeed& seed : data.seeds) {

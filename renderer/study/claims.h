@@ -47,7 +47,9 @@ struct ClaimRun {
 /// All criteria with one seed, and how alike the maps of samples of the f-divergences are.
 struct ClaimSeed {
   std::array<ClaimRun, report_criterion_count> runs;
-  double lowest_correlation = 0.0;  ///< of samples a pixel, between two of the three divergences
+  // Of samples a pixel:
+  double lowest_correlation = 0.0;     ///< between two of the three divergences
+  double highest_with_contrast = 0.0;  ///< between contrast and one of them
 };
 
 struct ClaimData {
@@ -57,15 +59,19 @@ struct ClaimData {
   bool partial = false;    ///< memory was short: some samples were traced again
 };
 
-/// Renders the report's scene as the report did, at several seeds. Nothing if `stop` ended it.
-/// Throws std::runtime_error if the scene is not the report's.
+/// The weights of red, green and blue in luminance that the report used: of NTSC's phosphors.
+inline constexpr glm::vec3 report_weights{0.299f, 0.587f, 0.114f};
+
+/// Renders the report's scene as the report did, with its weights, at several seeds. Nothing if
+/// `stop` ended it. Throws std::runtime_error if the scene is not the report's.
 std::optional<ClaimData> measure_claims(
     const SampleWorld& world, const std::vector<RegionId>& region_of_pixel, std::uint32_t passes,
     std::uint32_t seeds, std::stop_token stop,
     const std::function<void(double, std::string_view)>& progress);
 
-/// A value of each seed, with the interval of its mean.
-Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value);
+/// A value of each seed, with the interval of its mean at confidence 1 − p.
+Interval over_seeds(const ClaimData& data, const std::function<double(const ClaimSeed&)>& value,
+                    double p = 0.05);
 
 enum class ClaimVerdict { holds, does_not_hold, undecided };
 std::string_view verdict_text(ClaimVerdict verdict);
@@ -81,13 +87,15 @@ struct ClaimCheck {
 /// A finding of the report as a rule: it holds if all of its conditions do, and does not if one of
 /// them does not.
 struct Claim {
-  int number = 0;  ///< of the list of findings
+  int number = 0;      ///< of the list of findings
+  bool added = false;  ///< what the report does not say, beside the finding of that number
   std::string text;
   std::vector<ClaimCheck> checks;
   ClaimVerdict verdict = ClaimVerdict::undecided;
 };
 
-/// The five findings, judged by 95 % intervals over the seeds.
+/// The five findings, in the report's words, then what is added to them. Intervals over the seeds
+/// hold with 95 % confidence all together (Šidák 1967).
 std::vector<Claim> judge_claims(const ClaimData& data);
 
 /// Error over that of uniform sampling at equal as-if-alone time, a criterion: below 1 it beats

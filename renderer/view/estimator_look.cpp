@@ -61,6 +61,10 @@ const EstimatorLook& look_of(EstimatorId estimator) {
       return uniform_look;
     case EstimatorId::uniform_clamp:
       return uniform_clamp_look;
+    case EstimatorId::oracle_expected:
+    case EstimatorId::lottery:
+    case EstimatorId::endless:
+      break;  // controls are in no chart
   }
   return uniform_look;
 }

@@ -11,6 +11,7 @@ inline ClaimData numbered_claim_data() {
   for (std::size_t k = 0; k < 2; ++k) {
     ClaimSeed seed;
     seed.lowest_correlation = k == 0 ? 0.25 : 0.75;
+    seed.highest_with_contrast = k == 0 ? 0.5 : 0.125;
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       const double factor = (k == 0 ? 1.0 : 3.0) * double(c + 1);
       ClaimRun& run = seed.runs[c];

@@ -28,6 +28,7 @@ ClaimData obedient_data() {
     const double wobble = 1.0 + 0.001 * k;
     ClaimSeed seed;
     seed.lowest_correlation = 0.97 - 0.001 * k;
+    seed.highest_with_contrast = 0.5;
     for (std::size_t c = 0; c < report_criterion_count; ++c) {
       ClaimRun& run = seed.runs[c];
       run.spp.assign(regions().size(), 20.0 * wobble);
@@ -40,7 +41,7 @@ ClaimData obedient_data() {
       run.spp[index_of(RegionId::bright_squares)] = is_contrast ? 25.0 : 40.0;
       run.spp[index_of(RegionId::dark_squares)] = 25.0;
       run.spp[index_of(RegionId::bright_borders)] = 60.0 * wobble;
-      run.spp[index_of(RegionId::dark_borders)] = 59.0 * wobble;
+      run.spp[index_of(RegionId::dark_borders)] = (is_contrast ? 59.0 : 50.0) * wobble;
       run.seconds = 2.0;
       run.relmse = 0.01 * wobble;
       run.uniform_relmse = 0.02;
@@ -78,9 +79,10 @@ ClaimVerdict verdict_after(std::size_t claim, const Change& change) {
 
 TEST(Claims, HoldWhereTheyShould) {
   const std::vector<Claim> claims = judge_claims(obedient_data());
-  ASSERT_EQ(claims.size(), 5u);
+  ASSERT_EQ(claims.size(), 6u);
   for (std::size_t i = 0; i < claims.size(); ++i) {
-    EXPECT_EQ(claims[i].number, int(i) + 1);
+    EXPECT_EQ(claims[i].number, i < 5 ? int(i) + 1 : 1);
+    EXPECT_EQ(claims[i].added, i == 5) << "the ball's shadow";
     for (const ClaimCheck& check : claims[i].checks) {
       EXPECT_EQ(check.verdict, ClaimVerdict::holds) << check.text;
     }
@@ -89,32 +91,28 @@ TEST(Claims, HoldWhereTheyShould) {
 }
 
 TEST(Claims, EachFailsWithItsCondition) {
-  EXPECT_EQ(
-      verdict_after(0, [](ClaimSeed& s) { s.runs[0].spp[index_of(RegionId::ball_shadow)] = 31.0; }),
-      ClaimVerdict::does_not_hold);
-  EXPECT_EQ(
-      verdict_after(0, [](ClaimSeed& s) { s.runs[2].spp[index_of(RegionId::ceiling)] = 40.0; }),
-      ClaimVerdict::does_not_hold);
-  EXPECT_EQ(verdict_after(
-                1, [](ClaimSeed& s) { s.runs[1].spp[index_of(RegionId::bright_squares)] = 26.0; }),
-            ClaimVerdict::does_not_hold);
-  EXPECT_EQ(verdict_after(
-                1, [](ClaimSeed& s) { s.runs[0].spp[index_of(RegionId::dark_borders)] = 45.0; }),
-            ClaimVerdict::does_not_hold);
-  EXPECT_EQ(verdict_after(2, [](ClaimSeed& s) { s.lowest_correlation = 0.8; }),
+  const auto set = [](std::size_t criterion, RegionId id, double spp) {
+    return [=](ClaimSeed& s) { s.runs[criterion].spp[index_of(id)] = spp; };
+  };
+  EXPECT_EQ(verdict_after(5, set(0, RegionId::ball_shadow, 29.0)), ClaimVerdict::does_not_hold);
+  EXPECT_EQ(verdict_after(0, set(2, RegionId::ceiling, 60.0)), ClaimVerdict::does_not_hold)
+      << "more than contrast";
+  EXPECT_EQ(verdict_after(1, set(1, RegionId::bright_squares, 24.0)), ClaimVerdict::does_not_hold)
+      << "less than contrast";
+  EXPECT_EQ(verdict_after(1, set(0, RegionId::dark_borders, 45.0)), ClaimVerdict::does_not_hold)
+      << "less even than the divergences";
+  EXPECT_EQ(verdict_after(2, [](ClaimSeed& s) { s.highest_with_contrast = 0.98; }),
             ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(2, [](ClaimSeed& s) { s.runs[3].mean_spp = 26.0; }),
             ClaimVerdict::does_not_hold);
-  EXPECT_EQ(
-      verdict_after(3, [](ClaimSeed& s) { s.runs[3].spp[index_of(RegionId::red_wall)] = 33.0; }),
-      ClaimVerdict::does_not_hold);
+  EXPECT_EQ(verdict_after(3, set(3, RegionId::red_wall, 33.0)), ClaimVerdict::does_not_hold);
   EXPECT_EQ(verdict_after(4, [](ClaimSeed& s) { s.runs[1].firefly.nearby = 1.0; }),
             ClaimVerdict::does_not_hold);
 }
 
 TEST(Claims, AreUndecidedWhereSeedsDisagreeOrThereIsOne) {
   int k = 0;
-  EXPECT_EQ(verdict_after(2, [&](ClaimSeed& s) { s.lowest_correlation = k++ % 2 ? 0.99 : 0.82; }),
+  EXPECT_EQ(verdict_after(2, [&](ClaimSeed& s) { s.lowest_correlation = k++ % 2 ? 0.99 : 0.2; }),
             ClaimVerdict::undecided);
   ClaimData data = obedient_data();
   data.seeds.resize(1);
@@ -140,46 +138,52 @@ TEST(Claims, ComparesWhatEachConditionSays) {
     const char* text;
     double low, high;  // of the two seeds
   };
-  // A region's number r gives r² + 10 samples a pixel; ceiling 0, bright squares 1, dark squares 2,
-  // bright borders 3, dark borders 4, shadow 7, front 9, green 10, red 11, margin 12.
+  // A region's number r gives (r² + 10) (c + 1) samples a pixel, of 10 − c; ceiling 0, bright
+  // squares 1, dark squares 2, bright borders 3, dark borders 4, shadow 7, front 9, green 10, red
+  // 11, margin 12.
   const std::vector<std::vector<Expected>> findings{
-      {{"contrast: ceiling / mean lit pixel > 1.25", 10.0 / 8, 10.0 / 8},
-       {"kl: ceiling / mean lit pixel < 1", 10.0 / 8, 10.0 / 8},
-       {"chi2: ceiling / mean lit pixel < 1", 10.0 / 8, 10.0 / 8},
-       {"hellinger: ceiling / mean lit pixel < 1", 10.0 / 8, 10.0 / 8},
-       {"contrast: ball-shadow / mean lit pixel > 1.25", 59.0 / 8, 59.0 / 8},
-       {"kl: ball-shadow / mean lit pixel < 1", 59.0 / 8, 59.0 / 8},
-       {"chi2: ball-shadow / mean lit pixel < 1", 59.0 / 8, 59.0 / 8},
-       {"hellinger: ball-shadow / mean lit pixel < 1", 59.0 / 8, 59.0 / 8}},
-      {{"kl: bright / dark squares > 1.1", 11.0 / 14, 11.0 / 14},
-       {"chi2: bright / dark squares > 1.1", 11.0 / 14, 11.0 / 14},
-       {"hellinger: bright / dark squares > 1.1", 11.0 / 14, 11.0 / 14},
-       {"contrast: bright / dark side of borders from 0.9 to 1.1", 19.0 / 26, 19.0 / 26},
-       {"contrast: bright-borders / bright-squares > 1.1", 19.0 / 11, 19.0 / 11},
-       {"contrast: dark-borders / dark-squares > 1.1", 26.0 / 14, 26.0 / 14}},
-      {{"lowest correlation of samples a pixel between two of them > 0.9", 0.25, 0.75},
+      {{"contrast: ceiling / mean lit pixel > 1", 10.0 / 8, 10.0 / 8},
+       {"contrast / kl: ceiling / mean pixel > 1", 9.0 / 20, 9.0 / 20},
+       {"contrast / chi2: ceiling / mean pixel > 1", 8.0 / 30, 8.0 / 30},
+       {"contrast / hellinger: ceiling / mean pixel > 1", 7.0 / 40, 7.0 / 40}},
+      {{"kl / contrast: bright / dark squares > 1", 1, 1},
+       {"contrast - kl: |log| of bright / dark side of borders < 0", 0, 0},
+       {"chi2 / contrast: bright / dark squares > 1", 1, 1},
+       {"contrast - chi2: |log| of bright / dark side of borders < 0", 0, 0},
+       {"hellinger / contrast: bright / dark squares > 1", 1, 1},
+       {"contrast - hellinger: |log| of bright / dark side of borders < 0", 0, 0},
+       {"contrast: bright-borders / bright-squares > 1", 19.0 / 11, 19.0 / 11},
+       {"contrast: dark-borders / dark-squares > 1", 26.0 / 14, 26.0 / 14}},
+      {{"correlation of samples a pixel: lowest of two divergences - highest with contrast > 0",
+        -0.25, 0.625},
        {"hellinger / kl: mean spp < 1", 7.0 / 9, 7.0 / 9},
        {"hellinger / chi2: mean spp < 1", 7.0 / 8, 7.0 / 8}},
-      {{"contrast: box-front / mean lit pixel < 0.9", 91.0 / 8, 91.0 / 8},
-       {"kl: box-front / mean lit pixel < 0.9", 91.0 / 8, 91.0 / 8},
-       {"chi2: box-front / mean lit pixel < 0.9", 91.0 / 8, 91.0 / 8},
-       {"hellinger: box-front / mean lit pixel < 0.9", 91.0 / 8, 91.0 / 8},
-       {"contrast: green-wall / mean lit pixel < 0.9", 110.0 / 8, 110.0 / 8},
-       {"kl: green-wall / mean lit pixel < 0.9", 110.0 / 8, 110.0 / 8},
-       {"chi2: green-wall / mean lit pixel < 0.9", 110.0 / 8, 110.0 / 8},
-       {"hellinger: green-wall / mean lit pixel < 0.9", 110.0 / 8, 110.0 / 8},
-       {"contrast: red-wall / mean lit pixel < 0.9", 131.0 / 8, 131.0 / 8},
-       {"kl: red-wall / mean lit pixel < 0.9", 131.0 / 8, 131.0 / 8},
-       {"chi2: red-wall / mean lit pixel < 0.9", 131.0 / 8, 131.0 / 8},
-       {"hellinger: red-wall / mean lit pixel < 0.9", 131.0 / 8, 131.0 / 8},
-       {"contrast: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8},
-       {"kl: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8},
-       {"chi2: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8},
-       {"hellinger: margin / mean lit pixel < 0.9", 154.0 / 8, 154.0 / 8}},
+      {{"contrast: box-front / mean lit pixel < 1", 91.0 / 8, 91.0 / 8},
+       {"kl: box-front / mean lit pixel < 1", 91.0 / 8, 91.0 / 8},
+       {"chi2: box-front / mean lit pixel < 1", 91.0 / 8, 91.0 / 8},
+       {"hellinger: box-front / mean lit pixel < 1", 91.0 / 8, 91.0 / 8},
+       {"contrast: green-wall / mean lit pixel < 1", 110.0 / 8, 110.0 / 8},
+       {"kl: green-wall / mean lit pixel < 1", 110.0 / 8, 110.0 / 8},
+       {"chi2: green-wall / mean lit pixel < 1", 110.0 / 8, 110.0 / 8},
+       {"hellinger: green-wall / mean lit pixel < 1", 110.0 / 8, 110.0 / 8},
+       {"contrast: red-wall / mean lit pixel < 1", 131.0 / 8, 131.0 / 8},
+       {"kl: red-wall / mean lit pixel < 1", 131.0 / 8, 131.0 / 8},
+       {"chi2: red-wall / mean lit pixel < 1", 131.0 / 8, 131.0 / 8},
+       {"hellinger: red-wall / mean lit pixel < 1", 131.0 / 8, 131.0 / 8},
+       {"contrast: margin / mean lit pixel < 1", 154.0 / 8, 154.0 / 8},
+       {"kl: margin / mean lit pixel < 1", 154.0 / 8, 154.0 / 8},
+       {"chi2: margin / mean lit pixel < 1", 154.0 / 8, 154.0 / 8},
+       {"hellinger: margin / mean lit pixel < 1", 154.0 / 8, 154.0 / 8}},
       {{"contrast: samples next pass, a neighbour minus a pixel 4 away > 0", 3, 9},
        {"kl: samples next pass, a neighbour minus a pixel 4 away > 0", 6, 18},
        {"chi2: samples next pass, a neighbour minus a pixel 4 away > 0", 9, 27},
-       {"hellinger: samples next pass, a neighbour minus a pixel 4 away > 0", 12, 36}}};
+       {"hellinger: samples next pass, a neighbour minus a pixel 4 away > 0", 12, 36}},
+      {{"contrast: ball-shadow / mean lit pixel > 1", 59.0 / 8, 59.0 / 8},
+       {"contrast / kl: ball-shadow / mean pixel > 1", 9.0 / 20, 9.0 / 20},
+       {"contrast / chi2: ball-shadow / mean pixel > 1", 8.0 / 30, 8.0 / 30},
+       {"contrast / hellinger: ball-shadow / mean pixel > 1", 7.0 / 40, 7.0 / 40}}};
+  // 39 conditions, all together at 95 %.
+  const double t = std::tan(0.5 * M_PI * std::pow(0.95, 1.0 / 39.0));
   const std::vector<Claim> claims = judge_claims(test::numbered_claim_data());
   ASSERT_EQ(claims.size(), findings.size());
   for (std::size_t i = 0; i < claims.size(); ++i) {
@@ -190,10 +194,10 @@ TEST(Claims, ComparesWhatEachConditionSays) {
       SCOPED_TRACE(expected.text);
       EXPECT_EQ(check.text, expected.text);
       const double middle = 0.5 * (expected.low + expected.high);
-      const double half = cauchy_quantile * 0.5 * (expected.high - expected.low);
+      const double half = t * 0.5 * std::abs(expected.high - expected.low);
       EXPECT_NEAR(check.value.mean, middle, 1e-9);
-      EXPECT_NEAR(check.value.low, middle - half, 1e-6);
-      EXPECT_NEAR(check.value.high, middle + half, 1e-6);
+      EXPECT_NEAR(check.value.low, middle - half, 1e-5 * half + 1e-9);
+      EXPECT_NEAR(check.value.high, middle + half, 1e-5 * half + 1e-9);
     }
   }
 }
@@ -210,6 +214,18 @@ TEST(Claims, AgainstUniformIsEachErrorOverItsOwnOfUniformSampling) {
     EXPECT_NEAR(against_uniform(test::numbered_claim_data(), c, MetricId::flip).mean,
                 2.0 * middle / 32.0, 1e-9);
   }
+}
+
+/// Its luminance by our weights is 0.299 R + 0.587 G + 0.114 B of what it was.
+SampleSource weighed_as_in_the_report(SampleSource source) {
+  return [source = std::move(source)](std::span<SampleJob> jobs) {
+    source(jobs);
+    for (SampleJob& job : jobs) {
+      for (glm::vec3& sample : job.radiance) {
+        sample *= glm::vec3(0.299f / 0.2126f, 0.587f / 0.7152f, 0.114f / 0.0722f);
+      }
+    }
+  };
 }
 
 TEST(Claims, AreMeasuredOnTheReportsScene) {
@@ -258,7 +274,8 @@ TEST(Claims, AreMeasuredOnTheReportsScene) {
   for (std::size_t c = 0; c < report_criterion_count; ++c) {
     SCOPED_TRACE(estimator(report_criteria[c]).id);
     const LaneSettings lane_settings = default_settings(report_criteria[c]);
-    Lab alone(world.source(world.first_seed), 96, 54, std::span(&lane_settings, 1));
+    Lab alone(weighed_as_in_the_report(world.source(world.first_seed)), 96, 54,
+              std::span(&lane_settings, 1));
     while (alone.pass() < 6) {
       alone.run_pass();
     }
@@ -266,9 +283,9 @@ TEST(Claims, AreMeasuredOnTheReportsScene) {
     const ClaimRun& run = data->seeds[0].runs[c];
     const RadianceImage picture = lane.film().image();
     EXPECT_EQ(run.relmse, metric(MetricId::relmse).compute(picture, reference->image));
-    EXPECT_EQ(run.relmse_top, relmse_top_share(picture, reference->image));
+    EXPECT_NEAR(run.relmse_top, relmse_top_share(picture, reference->image), 1e-4);
     EXPECT_EQ(run.flip, metric(MetricId::flip).compute(picture, reference->image));
-    EXPECT_EQ(run.energy, energy_error(picture, reference->image));
+    EXPECT_NEAR(run.energy, energy_error(picture, reference->image), 1e-5);
     std::vector<double> samples(regions().size(), 0.0);
     double lit = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i) {
