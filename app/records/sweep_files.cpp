@@ -188,8 +188,9 @@ void write_sweep_files(StagedFiles& files, const SweepReport& report) {
   sweep.charts = overview_charts(report.summary, report.effort);
   sweep.lines.push_back(metric_text(report));
   sweep.lines.emplace_back(
-      "A mark is a pass. Bias² is without its own noise, and where it comes out below 0 it is not "
-      "drawn.");
+      "A mark is a pass. Bias² is without its own noise, and may come out below 0: its line leaves "
+      "at "
+      "the bottom.");
   write_figure(files, "sweep", sweep);
   ChartFigure thresholds = figure_of(report, "each estimator at fixed thresholds");
   thresholds.charts = threshold_charts(report.summary, report.effort);

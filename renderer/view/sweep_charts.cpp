@@ -32,7 +32,8 @@ struct Range {
   bool empty() const { return !(min <= max); }
 };
 
-/// What is charted of a point; not finite, or not above 0 on a logarithmic axis: it is not there.
+/// What is charted of a point; not finite: it is not there. Not above 0 on a logarithmic axis: the
+/// line leaves the chart at the bottom.
 using Quantity = std::function<double(const SweepPoint&)>;
 
 double error_of(const SweepPoint& point) {
@@ -60,7 +61,7 @@ bool is_default(const SweepLane& lane) {
 }
 
 /// A trajectory, as far as it can be charted.
-Line trajectory(const SweepLine& from, Effort effort, const Quantity& quantity, bool logarithmic) {
+Line trajectory(const SweepLine& from, Effort effort, const Quantity& quantity) {
   const EstimatorLook& look = look_of(from.lane.settings.estimator);
   Line line{.label = label_of(from.lane),
             .color = look.paper,
@@ -74,7 +75,7 @@ Line trajectory(const SweepLine& from, Effort effort, const Quantity& quantity, 
   line.dots = from.points.size() <= most_marks;
   for (const SweepPoint& point : from.points) {
     const double value = quantity(point);
-    if (effort_of(effort, point) > 0.0 && std::isfinite(value) && (!logarithmic || value > 0.0)) {
+    if (effort_of(effort, point) > 0.0 && std::isfinite(value)) {
       line.points.emplace_back(effort_of(effort, point), value);
     }
   }
@@ -109,9 +110,9 @@ Axis effort_axis(const std::vector<const SweepLine*>& lines, Effort effort, int 
                   std::string(effort_row(effort).label), wanted);
 }
 
-/// Over the points that lie inside of the other axis. `left_out`: the label of a line that does not
-/// count; it may be empty.
-Range seen_range(const Chart& chart, std::string_view left_out = "") {
+/// Over the points that lie inside of the other axis, and can lie on this one. `left_out`: the
+/// label of a line that does not count; it may be empty.
+Range seen_range(const Chart& chart, bool logarithmic, std::string_view left_out = "") {
   Range range;
   for (const Line& line : chart.lines) {
     if (!left_out.empty() && line.label == left_out) {
@@ -119,7 +120,7 @@ Range seen_range(const Chart& chart, std::string_view left_out = "") {
     }
     for (const glm::dvec2& point : line.points) {
       const double position = axis_position(chart.x, point.x);
-      if (position >= 0.0 && position <= 1.0) {
+      if (position >= 0.0 && position <= 1.0 && (!logarithmic || point.y > 0.0)) {
         range.include(point.y);
       }
     }
@@ -151,9 +152,9 @@ Chart overview(const SweepSummary& summary, Effort effort, std::string title, st
   const std::vector<const SweepLine*> lines = overview_lines(summary);
   chart.x = effort_axis(lines, effort, ticks);
   for (const SweepLine* line : lines) {
-    chart.lines.push_back(trajectory(*line, effort, quantity, logarithmic));
+    chart.lines.push_back(trajectory(*line, effort, quantity));
   }
-  chart.y = value_axis(seen_range(chart), std::move(label), logarithmic, ticks);
+  chart.y = value_axis(seen_range(chart, logarithmic), std::move(label), logarithmic, ticks);
   return chart;
 }
 
@@ -163,8 +164,8 @@ Chart energy_chart(const SweepSummary& summary, Effort effort) {
   const std::string label = "energy: mean luminance over the reference's, less 1, %";
   Chart chart = overview(summary, effort, "Light lost or gained", label, false,
                          [](const SweepPoint& p) { return 100.0 * p.energy.mean; });
-  Range seen =
-      seen_range(chart, label_of({.settings = default_settings(EstimatorId::uniform_clamp)}));
+  Range seen = seen_range(chart, false,
+                          label_of({.settings = default_settings(EstimatorId::uniform_clamp)}));
   seen.include(0.0);
   const double margin = 0.05 * (seen.max - seen.min);
   chart.y = linear_axis(seen.min - margin, seen.max + margin, label, ticks);
@@ -174,7 +175,8 @@ Chart energy_chart(const SweepSummary& summary, Effort effort) {
         std::find_if(line.points.rbegin(), line.points.rend(),
                      [&](const auto& point) { return axis_position(chart.x, point.x) <= 1.0; });
     if (last != line.points.rend()) {
-      line.label += fmt::format(" {:+.1f} %", last->y);
+      // Not −0.0.
+      line.label += fmt::format(" {:+.1f} %", std::round(10.0 * last->y) / 10.0 + 0.0);
     }
   }
   return chart;
@@ -210,8 +212,7 @@ Band interval_band(const SweepLine& from, Effort effort, std::uint32_t seeds) {
 
 /// The lines of one estimator's small chart: its thresholds, with labels as many as can be read,
 /// and its twin at the default ones.
-void add_thresholds(const SweepSummary& summary, EstimatorId id, Effort effort, bool logarithmic,
-                    Chart& chart) {
+void add_thresholds(const SweepSummary& summary, EstimatorId id, Effort effort, Chart& chart) {
   constexpr std::size_t readable = 9;
   std::vector<const SweepLine*> own;
   for (const SweepLine& line : summary.lines) {
@@ -221,7 +222,7 @@ void add_thresholds(const SweepSummary& summary, EstimatorId id, Effort effort, 
   }
   const std::size_t step = (own.size() + readable - 1) / readable;
   for (std::size_t i = 0; i < own.size(); ++i) {
-    Line line = trajectory(*own[i], effort, error_of, logarithmic);
+    Line line = trajectory(*own[i], effort, error_of);
     const bool usual = is_default(own[i]->lane);
     if (usual && !own[i]->lane.twin && summary.seeds > 1) {
       chart.bands.push_back(interval_band(*own[i], effort, summary.seeds));
@@ -249,7 +250,7 @@ std::vector<Chart> overview_charts(const SweepSummary& summary, Effort effort) {
   errors.lines.insert(errors.lines.begin(), front_line(summary, effort));
   // A noise floor far below all errors says that it is far below, wherever it is drawn.
   constexpr double far = 20.0;
-  Range seen = seen_range(errors);
+  Range seen = seen_range(errors, logarithmic);
   if (logarithmic && summary.noise_floor > seen.min / far) {
     seen.include(summary.noise_floor);
   }
@@ -266,10 +267,13 @@ std::vector<Chart> overview_charts(const SweepSummary& summary, Effort effort) {
   charts.push_back(overview(summary, effort, "Variance", of, true,
                             [](const SweepPoint& p) { return p.parts.variance; }));
   // On one axis, so that the larger part is seen to be the larger one.
-  Range both = seen_range(charts[2]);
-  const Range variances = seen_range(charts[3]);
+  // Bias² far below all variances is noise.
+  constexpr double little = 0.1;
+  Range both = seen_range(charts[2], true);
+  const Range variances = seen_range(charts[3], true);
   both.include(variances.min);
   both.include(variances.max);
+  both.min = std::max(both.min, little * variances.min);
   charts[2].y = charts[3].y = value_axis(both, of, true, ticks);
   if (summary.parts_metric->key == summary.metric) {
     add_floor(summary, charts[2]);
@@ -289,7 +293,7 @@ std::vector<Chart> threshold_charts(const SweepSummary& summary, Effort effort) 
     }
   }
   const Axis x = effort_axis(all, effort, panel_ticks);
-  Line uniform = trajectory(summary.uniform, effort, error_of, logarithmic);
+  Line uniform = trajectory(summary.uniform, effort, error_of);
   uniform.dots = false;
   uniform.label_at_end = false;
   std::vector<Chart> charts;
@@ -299,8 +303,8 @@ std::vector<Chart> threshold_charts(const SweepSummary& summary, Effort effort) 
     chart.title = label_of({.settings = default_settings(id)});
     chart.x = x;
     chart.lines = {front_line(summary, effort), uniform};
-    add_thresholds(summary, id, effort, logarithmic, chart);
-    const Range own = seen_range(chart);
+    add_thresholds(summary, id, effort, chart);
+    const Range own = seen_range(chart, logarithmic);
     seen.include(own.min);
     seen.include(own.max);
     charts.push_back(std::move(chart));
