@@ -177,6 +177,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_bias_command(app, program);
   add_stability_command(app, program);
   add_versus_command(app, program);
+  add_needs_command(app, program);
   app.parse_complete_callback([&] { check_window_options(app, window); });
   try {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

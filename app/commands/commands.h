@@ -30,6 +30,7 @@ void add_trace_command(CLI::App& app, const Program& program);
 void add_bias_command(CLI::App& app, const Program& program);
 void add_stability_command(CLI::App& app, const Program& program);
 void add_versus_command(CLI::App& app, const Program& program);
+void add_needs_command(CLI::App& app, const Program& program);
 
 /// Of text and controls, 1 as they are drawn.
 inline constexpr NumberRange<float> ui_scale_range{0.5f, 8.0f};

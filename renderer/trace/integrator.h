@@ -25,6 +25,9 @@ struct RenderSettings {
   IntegratorId integrator = IntegratorId::mis;
   SamplerId sampler = SamplerId::sobol;
   std::uint64_t seed = 0;
+  /// Whether paths may end by Russian roulette. Without it they go on to max_depth, which should
+  /// then not be without limit: between perfect mirrors nothing else ends them.
+  bool roulette = true;
   bool operator==(const RenderSettings&) const = default;
 };
 

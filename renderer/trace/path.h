@@ -44,6 +44,9 @@ namespace detail {
 
 // Paths that end before their third vertex cost more in noise than they save in rays.
 inline constexpr int first_roulette_depth = 3;
+inline constexpr int roulette_depth(bool roulette) {
+  return roulette ? first_roulette_depth : std::numeric_limits<int>::max();
+}
 // Every path must end, between perfect mirrors too.
 inline constexpr float max_survival = 0.95f;
 
@@ -94,10 +97,11 @@ glm::vec3 next_event(const TraceScene& scene, const Surface& surface, const Fram
 /// The radiance that arrives along `ray`, an unbiased estimate by unidirectional path tracing of
 /// the rendering equation (Kajiya 1986). With `NextEvent`, each diffuse or glossy vertex also
 /// samples a light, and both ways of finding light are weighted by the power heuristic; without it,
-/// light is found by BSDF sampling alone. `max_depth` counts segments: 1 shows lights only.
+/// light is found by BSDF sampling alone. `max_depth` counts segments: 1 shows lights only. Without
+/// `roulette` nothing but it, light or a black surface ends a path.
 template <bool NextEvent, class Observer>
 glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max_depth,
-                     Observer& observer) {
+                     Observer& observer, bool roulette = true) {
   glm::vec3 radiance(0.0f);
   glm::vec3 throughput(1.0f);
   float eta_scale = 1.0f;
@@ -158,7 +162,7 @@ glm::vec3 trace_path(const TraceScene& scene, Ray ray, Sampler& sampler, int max
       return radiance;
     }
     eta_scale *= next.eta_scale;
-    if (depth >= detail::first_roulette_depth) {
+    if (depth >= detail::roulette_depth(roulette)) {
       const float survival = std::min(
           detail::max_survival, eta_scale * std::max({throughput.x, throughput.y, throughput.z}));
       observer.survival(survival);

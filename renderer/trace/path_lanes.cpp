@@ -305,7 +305,8 @@ void add_next_event(const TraceScene& scene, const Vertices& vertices, const Fra
 
 /// Moves all active paths on, from what they met to their next rays.
 template <bool NextEvent>
-void advance(const TraceScene& scene, int max_depth, Bsdfs& bsdfs, Paths& paths) {
+void advance(const TraceScene& scene, const RenderSettings& settings, Bsdfs& bsdfs, Paths& paths) {
+  const int max_depth = settings.max_depth;
   add_found_light<NextEvent>(scene, paths);
   paths.finish(paths.active & ~(paths.hit.met & (paths.depth < max_depth)));
   if (!any(paths.active)) {
@@ -332,7 +333,7 @@ void advance(const TraceScene& scene, int max_depth, Bsdfs& bsdfs, Paths& paths)
   const Float8 strongest =
       max_of(max_of(paths.throughput.x, paths.throughput.y), paths.throughput.z);
   const Float8 survival = min_of(splat(detail::max_survival), paths.eta_scale * strongest);
-  const Mask8 roulette = paths.depth >= detail::first_roulette_depth;
+  const Mask8 roulette = paths.depth >= detail::roulette_depth(settings.roulette);
   ends |= roulette & (paths.sampler.independent() >= survival);
   paths.finish(paths.active & ends);
   paths.throughput /= roulette ? survival : 1.0f;
@@ -350,7 +351,7 @@ void trace_lanes(const TraceScene& scene, const RenderSettings& settings, const 
   Paths paths;
   Bsdfs bsdfs;
   for (queue.fill(paths); any(paths.active); queue.fill(paths)) {
-    advance<NextEvent>(scene, settings.max_depth, bsdfs, paths);
+    advance<NextEvent>(scene, settings, bsdfs, paths);
     paths.trace(scene);
   }
 }

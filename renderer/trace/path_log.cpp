@@ -55,9 +55,10 @@ PathLog log_path(const TraceScene& scene, const RenderSettings& settings, int x,
   const auto pixel = std::uint32_t(y) * std::uint32_t(settings.width) + std::uint32_t(x);
   Sampler sampler(settings.seed, pixel, index, settings.sampler);
   const Ray ray = camera.ray(x, y, sampler.next());
-  log.radiance = settings.integrator == IntegratorId::mis
-                     ? trace_path<true>(scene, ray, sampler, settings.max_depth, observer)
-                     : trace_path<false>(scene, ray, sampler, settings.max_depth, observer);
+  log.radiance =
+      settings.integrator == IntegratorId::mis
+          ? trace_path<true>(scene, ray, sampler, settings.max_depth, observer, settings.roulette)
+          : trace_path<false>(scene, ray, sampler, settings.max_depth, observer, settings.roulette);
   return log;
 }
 

@@ -22,7 +22,7 @@ class Commands {
          {add_figure_command, add_render_command, add_screenshot_command, add_reference_command,
           add_compare_command, add_sweep_command, add_calibrate_command, add_claims_command,
           add_list_command, add_info_command, add_trace_command, add_bias_command,
-          add_stability_command, add_versus_command}) {
+          add_stability_command, add_versus_command, add_needs_command}) {
       add(app_, program_);
     }
     // Called once the options are read and checked, ahead of what does the work.

@@ -33,8 +33,8 @@ Reference single_path(const TraceScene& scene, const RenderSettings& settings,
   RayCounter counter;
   const glm::vec3 radiance =
       settings.integrator == IntegratorId::mis
-          ? trace_path<true>(scene, ray, sampler, settings.max_depth, counter)
-          : trace_path<false>(scene, ray, sampler, settings.max_depth, counter);
+          ? trace_path<true>(scene, ray, sampler, settings.max_depth, counter, settings.roulette)
+          : trace_path<false>(scene, ray, sampler, settings.max_depth, counter, settings.roulette);
   return {radiance, counter.rays};
 }
 
@@ -79,6 +79,7 @@ void expect_single_paths(const TraceScene& scene, RenderSettings settings) {
     settings.integrator = row.key;
     for (const int max_depth : {1, 2, 3, 6, std::numeric_limits<int>::max()}) {
       settings.max_depth = max_depth;
+      settings.roulette = max_depth != 6;
       ++settings.seed;
       settings.sampler = samplers()[settings.seed % samplers().size()].key;
       SCOPED_TRACE(std::string(row.id) + ", depth " + std::to_string(max_depth) + ", " +

@@ -83,6 +83,30 @@ TEST(Transport, FurnaceOfEveryAlbedoAndDepth) {
   }
 }
 
+TEST(Transport, WithoutRoulettePathsGoOnToTheirDepth) {
+  const TraceScene scene(load_scene(find_scene("furnace"), {{"albedo", "0.5"}}));
+  for (const Integrator& row : integrators()) {
+    RenderSettings settings = default_settings(scene.scene());
+    settings.integrator = row.key;
+    settings.max_depth = 12;
+    settings.roulette = false;
+    const CameraRays camera(settings.camera, settings.width, settings.height);
+    std::vector<glm::vec3> radiance(64);
+    std::vector<std::uint16_t> rays(64);
+    SampleJob job{20, 20, 0, radiance, rays};
+    row.trace_jobs(scene, settings, camera, {&job, 1});
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      // Where every surface shines alike, a path that cannot end early has no noise.
+      if (row.key == IntegratorId::kajiya) {
+        EXPECT_EQ(rays[i], 12);
+        EXPECT_NEAR(radiance[i].y, 2.0f - std::pow(0.5f, 11.0f), 1e-5f);
+      } else {
+        EXPECT_EQ(rays[i], 12 + 11) << "a light sample at all but the last vertex";
+      }
+    }
+  }
+}
+
 /// Irradiance at `point` with unit `normal` from a polygon of radiance 1 that lies wholly above:
 /// Lambert 1760; half the sum over the edges of their angle times the cosine of their plane.
 double lambert(const std::vector<glm::dvec3>& polygon, glm::dvec3 point, glm::dvec3 normal) {

@@ -98,6 +98,7 @@ void stroke(cairo_t* cairo, std::span<const glm::dvec2> points, const Line& line
   cairo_set_line_width(cairo, line_width * double(line.width));
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   set_dashes(cairo, line.dash);
+  cairo_new_path(cairo);  // text leaves a point behind
   for (const glm::dvec2& point : points) {
     cairo_line_to(cairo, point.x, point.y);
   }

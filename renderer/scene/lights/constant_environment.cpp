@@ -6,6 +6,7 @@
 #include "renderer/scene/hasher.h"
 #include "renderer/scene/xml/color.h"
 #include "renderer/scene/xml/element.h"
+#include "renderer/scene/xml/element_writer.h"
 
 namespace quartet {
 
@@ -24,6 +25,10 @@ ConstantEnvironment ConstantEnvironment::read(SceneBuilder& builder, Element& el
   if (!environment.shines()) element.warn("a light with radiance 0 is left out");
   element.ignore({"to_world"});  // the same from every direction
   return environment;
+}
+
+void ConstantEnvironment::write(ElementWriter& element) const {
+  element.color("radiance", radiance);
 }
 
 }  // namespace quartet

@@ -9,6 +9,7 @@
 namespace quartet {
 
 class Element;
+class ElementWriter;
 class Hasher;
 struct SceneBuilder;
 
@@ -24,6 +25,7 @@ struct ConstantEnvironment {
   bool shines() const { return radiance != glm::vec3(0.0f); }
   std::string text() const;
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static ConstantEnvironment read(SceneBuilder& builder, Element& element);
 };
 

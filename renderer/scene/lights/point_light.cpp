@@ -10,6 +10,7 @@
 #include "renderer/scene/limits.h"
 #include "renderer/scene/xml/color.h"
 #include "renderer/scene/xml/element.h"
+#include "renderer/scene/xml/element_writer.h"
 
 namespace quartet {
 
@@ -41,6 +42,11 @@ PointLight PointLight::read(SceneBuilder& builder, Element& element) {
     element.fail(fmt::format("{}: {}", element.title(), fault));
   }
   return light;
+}
+
+void PointLight::write(ElementWriter& element) const {
+  element.point("position", position);
+  element.color("intensity", intensity);
 }
 
 }  // namespace quartet

@@ -7,6 +7,7 @@
 namespace quartet {
 
 class Element;
+class ElementWriter;
 class Hasher;
 struct SceneBuilder;
 
@@ -21,6 +22,7 @@ struct PointLight {
   double power() const;
   std::string text() const;
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static PointLight read(SceneBuilder& builder, Element& element);
 };
 

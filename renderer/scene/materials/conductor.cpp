@@ -1,6 +1,7 @@
 #include "renderer/scene/materials/conductor.h"
 
 #include "renderer/scene/materials/hashed_row.h"
+#include "renderer/scene/xml/element_writer.h"
 
 namespace quartet {
 
@@ -11,6 +12,10 @@ void Conductor::add_to(Hasher& hasher) const {
 
 Conductor Conductor::read(SceneBuilder& builder, Element& element) {
   return {Metal::read(builder, element)};
+}
+
+void Conductor::write(ElementWriter& element) const {
+  metal.write(element);
 }
 
 }  // namespace quartet

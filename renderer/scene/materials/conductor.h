@@ -38,6 +38,7 @@ struct Conductor {
   std::array<Color, 1> colors() const { return {metal.reflectance}; }
   std::string text(const Textures& textures) const { return metal.text(textures); }
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static Conductor read(SceneBuilder& builder, Element& element);
 };
 

@@ -9,6 +9,7 @@
 #include "renderer/scene/limits.h"
 #include "renderer/scene/materials/hashed_row.h"
 #include "renderer/scene/xml/color.h"
+#include "renderer/scene/xml/element_writer.h"
 #include "renderer/scene/xml/refractive_index.h"
 
 namespace quartet {
@@ -64,6 +65,13 @@ Dielectric Dielectric::read(SceneBuilder& builder, Element& element) {
   material.transmittance = read_color(builder, element, "specular_transmittance", glm::vec3(1.0f),
                                       ColorRange::reflectance);
   return material;
+}
+
+void Dielectric::write(ElementWriter& element) const {
+  element.number("int_ior", ior);
+  element.number("ext_ior", 1.0f);
+  element.color("specular_reflectance", reflectance);
+  element.color("specular_transmittance", transmittance);
 }
 
 }  // namespace quartet

@@ -59,6 +59,7 @@ struct Dielectric {
   std::array<Color, 2> colors() const { return {reflectance, transmittance}; }
   std::string text(const Textures& textures) const;
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static Dielectric read(SceneBuilder& builder, Element& element);
 };
 

@@ -4,6 +4,7 @@
 
 #include "renderer/scene/materials/hashed_row.h"
 #include "renderer/scene/xml/color.h"
+#include "renderer/scene/xml/element_writer.h"
 
 namespace quartet {
 
@@ -18,6 +19,10 @@ void Diffuse::add_to(Hasher& hasher) const {
 
 Diffuse Diffuse::read(SceneBuilder& builder, Element& element) {
   return {read_color(builder, element, "reflectance", glm::vec3(0.5f), ColorRange::reflectance)};
+}
+
+void Diffuse::write(ElementWriter& element) const {
+  element.color("reflectance", reflectance);
 }
 
 }  // namespace quartet

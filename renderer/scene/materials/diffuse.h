@@ -43,6 +43,7 @@ struct Diffuse {
   std::array<Color, 1> colors() const { return {reflectance}; }
   std::string text(const Textures& textures) const;
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static Diffuse read(SceneBuilder& builder, Element& element);
 };
 

@@ -12,12 +12,12 @@
 namespace quartet {
 
 /// The kinds of material, one file each. A kind says what it is called in scene files (name), which
-/// colours it has (colors), what it is to people (text), and how it is hashed (add_to) and read
-/// (read). With its colours looked up by a function (at) it becomes an AtPoint, which is what paths
-/// ask: whether it reflects or transmits into single directions only (specular), whether light goes
-/// through to the other side (transmits), sample(), and unless specular evaluate(). One that lets
-/// no light through is asked of directions on the front only. bsdf_sample.h says what they take and
-/// give; (u, v) in [0, 1)² chooses a direction.
+/// colours it has (colors), what it is to people (text), and how it is hashed (add_to), read (read)
+/// and written (write). With its colours looked up by a function (at) it becomes an AtPoint, which
+/// is what paths ask: whether it reflects or transmits into single directions only (specular),
+/// whether light goes through to the other side (transmits), sample(), and unless specular
+/// evaluate(). One that lets no light through is asked of directions on the front only.
+/// bsdf_sample.h says what they take and give; (u, v) in [0, 1)² chooses a direction.
 using MaterialKind = std::variant<Diffuse, Conductor, RoughConductor, Dielectric>;
 
 struct Material {

@@ -7,6 +7,7 @@
 #include "renderer/base/excerpt.h"
 #include "renderer/base/number_text.h"
 #include "renderer/scene/xml/color.h"
+#include "renderer/scene/xml/element_writer.h"
 #include "renderer/scene/xml/refractive_index.h"
 
 namespace quartet {
@@ -38,6 +39,12 @@ Metal Metal::read(SceneBuilder& builder, Element& element) {
   metal.reflectance = read_color(builder, element, "specular_reflectance", glm::vec3(1.0f),
                                  ColorRange::reflectance);
   return metal;
+}
+
+void Metal::write(ElementWriter& element) const {
+  element.color("eta", eta);
+  element.color("k", k);
+  element.color("specular_reflectance", reflectance);
 }
 
 }  // namespace quartet

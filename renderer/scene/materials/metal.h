@@ -27,6 +27,7 @@ struct Metal {
     return {color(reflectance), eta, k};
   }
   std::string text(const Textures& textures) const;
+  void write(ElementWriter& element) const;
   /// `material`, or `eta` and `k`; and `specular_reflectance`. Throws SceneError.
   static Metal read(SceneBuilder& builder, Element& element);
 };

@@ -8,6 +8,7 @@
 #include "renderer/base/excerpt.h"
 #include "renderer/scene/materials/hashed_row.h"
 #include "renderer/scene/xml/color.h"
+#include "renderer/scene/xml/element_writer.h"
 
 namespace quartet {
 namespace {
@@ -52,6 +53,12 @@ RoughConductor RoughConductor::read(SceneBuilder& builder, Element& element) {
   material.alpha = float(std::max(alpha, smallest_alpha));
   element.ignore({"sample_visible"});
   return material;
+}
+
+void RoughConductor::write(ElementWriter& element) const {
+  metal.write(element);
+  element.text("distribution", "ggx");
+  element.number("alpha", alpha);
 }
 
 }  // namespace quartet

@@ -55,6 +55,7 @@ struct RoughConductor {
   std::array<Color, 1> colors() const { return {metal.reflectance}; }
   std::string text(const Textures& textures) const;
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static RoughConductor read(SceneBuilder& builder, Element& element);
 };
 

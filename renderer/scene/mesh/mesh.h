@@ -11,6 +11,7 @@
 
 namespace quartet {
 
+class ElementWriter;
 class Hasher;
 
 /// Triangles; normals and uvs are either empty or one a vertex. The geometric normal of a triangle
@@ -31,6 +32,7 @@ struct Mesh {
   std::size_t pieces() const { return triangles.size(); }
   std::string text() const;
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
 };
 
 // What takes long for a large mesh throws Cancelled soon after `stop` was asked for; the mesh is of

@@ -9,6 +9,7 @@
 
 namespace quartet {
 
+class ElementWriter;
 class Hasher;
 
 struct Disk {
@@ -25,6 +26,7 @@ struct Disk {
   std::size_t pieces() const { return 1; }
   std::string text() const { return std::string(name); }
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
 };
 
 }  // namespace quartet

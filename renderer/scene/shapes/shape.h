@@ -14,7 +14,7 @@ namespace quartet {
 /// The kinds of geometry, one file each. A kind says what it is called (name), what it is to people
 /// (text), the box around it (box), its area in world units² (area), how many pieces it has, of
 /// which a ray meets one and each of which is a light if it shines (pieces), and how it is hashed
-/// (add_to).
+/// (add_to) and written (write).
 using Geometry = std::variant<Mesh, Sphere, Disk>;
 
 struct Shape {

@@ -1,12 +1,16 @@
 #include "renderer/scene/shapes/sphere.h"
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "renderer/scene/hasher.h"
 #include "renderer/scene/shapes/circle_axes.h"
 #include "renderer/scene/shapes/shape_rows.h"
 #include "renderer/scene/xml/element.h"
+#include "renderer/scene/xml/element_writer.h"
+#include "renderer/scene/xml/rounded.h"
 
 namespace quartet {
 namespace {
@@ -43,6 +47,26 @@ double Sphere::area() const {
 void Sphere::add_to(Hasher& hasher) const {
   const auto& [place, size, inside_out, axes] = *this;
   hasher.add_all(place, size, inside_out, axes);
+}
+
+void Sphere::write(ElementWriter& element) const {
+  element.set_type(name);
+  if (to_local == glm::mat3(1.0f)) {
+    element.point("center", center);
+    element.number("radius", radius);
+  } else {
+    const glm::mat3& m = to_local;
+    const std::array axes = rounded_to(
+        std::array{m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z, m[2].x, m[2].y, m[2].z},
+        [](std::array<double, 9>& values) {
+          const double size = std::cbrt(std::abs(glm::determinant(glm::make_mat3(values.data()))));
+          for (double& value : values) value /= size;
+        });
+    glm::dmat4 to_world(glm::inverse(glm::dmat3(glm::make_mat3(axes.data()))) * double(radius));
+    to_world[3] = glm::dvec4(glm::dvec3(center), 1.0);
+    element.transform("to_world", to_world);
+  }
+  if (flip_normals) element.boolean("flip_normals", true);
 }
 
 constexpr ShapeRow sphere_row{Sphere::name, read_sphere};

@@ -9,6 +9,7 @@
 
 namespace quartet {
 
+class ElementWriter;
 class Hasher;
 
 struct Sphere {
@@ -24,6 +25,7 @@ struct Sphere {
   std::size_t pieces() const { return 1; }
   std::string text() const { return std::string(name); }
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
 };
 
 }  // namespace quartet

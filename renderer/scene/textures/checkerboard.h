@@ -8,6 +8,7 @@
 namespace quartet {
 
 class Element;
+class ElementWriter;
 class Hasher;
 struct SceneBuilder;
 
@@ -30,6 +31,7 @@ struct Checkerboard {
   std::array<glm::vec3, 2> extremes() const { return {color0, color1}; }
   std::string text() const { return "a checkerboard"; }
   void add_to(Hasher& hasher) const;
+  void write(ElementWriter& element) const;
   static Checkerboard read(SceneBuilder& builder, Element& element);
 };
 

@@ -13,7 +13,7 @@ namespace quartet {
 /// The kinds of texture, one file each. A kind says what it is called in scene files (name), what
 /// it shows at texture coordinates (at) and on average over the plane (mean), colours with the
 /// smallest and the largest of each channel among them (extremes), what it is to people (text), and
-/// how it is hashed (add_to) and read (read).
+/// how it is hashed (add_to), read (read) and written (write).
 using Texture = std::variant<Checkerboard>;
 using Textures = std::vector<Texture>;
 

@@ -1,5 +1,7 @@
 #include "renderer/scene/xml/number.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -36,6 +38,13 @@ std::optional<float> parse_float(std::string_view text) {
   const std::optional<double> value = parse_number(text);
   if (!value || std::abs(*value) > std::numeric_limits<float>::max()) return std::nullopt;
   return float(*value);
+}
+
+std::string exact_text(float value) {
+  // Shortest of all that are nearer to it than to another float; but what stands half-way between
+  // two of them in double precision is read as the other one.
+  std::string text = fmt::format("{}", value);
+  return parse_float(text) == value ? text : fmt::format("{}", double(value));
 }
 
 }  // namespace quartet

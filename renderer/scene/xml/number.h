@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,5 +14,8 @@ std::vector<std::string_view> split(std::string_view text);
 std::optional<double> parse_number(std::string_view text);
 /// The same, if single precision can hold it.
 std::optional<float> parse_float(std::string_view text);
+
+/// The shortest decimal number that parse_float() reads as `value`, which is finite.
+std::string exact_text(float value);
 
 }  // namespace quartet
