@@ -204,30 +204,45 @@ bool Lab::trace(Stream& stream, std::span<Lane* const> moving, std::stop_token s
   if (std::ranges::none_of(moving, lacks)) {
     return true;
   }
-  const std::size_t pixels = std::size_t(width()) * std::size_t(height());
-  begin_.assign(pixels, UINT32_MAX);
-  end_.assign(pixels, 0);
-  for (const Lane* lane : moving) {
-    if (!takes_from(*lane, stream)) {
-      continue;
-    }
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const std::uint32_t taken = lane->taken()[i];
-      const std::uint32_t wanted = lane->plan().wanted[i];
-      begin_[i] = std::min(begin_[i], wanted > 0 ? taken : UINT32_MAX);
-      end_[i] = std::max(end_[i], wanted > 0 ? taken + wanted : 0);
-    }
-  }
-  return stream.store.require(begin_, end_, stream.source,
+  return stream.store.require(wishes_of(moving, stream), stream.source,
                               stream.store.traced() == 0 ? std::stop_token() : stop);
 }
 
-/// Lets a store give up what costs least to do without, where memory is short: first the means,
-/// without which a replay is slower, then what every lane has used, which a replay must trace
-/// again.
+/// What lanes take from a store next.
+std::vector<SampleWish> Lab::wishes_of(std::span<Lane* const> lanes, const Stream& stream) const {
+  std::vector<SampleWish> wishes;
+  for (const Lane* lane : lanes) {
+    if (takes_from(*lane, stream)) {
+      wishes.push_back({lane->taken(), lane->plan().wanted});
+    }
+  }
+  return wishes;
+}
+
+/// Memory of the samples that a store will trace for the next pass: room for them is made before
+/// they come.
+std::size_t Lab::coming_bytes(const Stream& stream) {
+  constexpr std::size_t sample_bytes = sizeof(glm::vec3) + sizeof(std::uint16_t);
+  const std::vector<Lane*> moving = lanes_at(pass());
+  std::uint64_t most = 0;
+  for (const Lane* lane : moving) {
+    most += takes_from(*lane, stream) ? lane->plan().total : 0;
+  }
+  // Looked at more closely where it may matter.
+  return sample_bytes * (stream.store.bytes() + most * sample_bytes > stream.store.memory_budget()
+                             ? stream.store.missing(wishes_of(moving, stream))
+                             : most);
+}
+
+/// Lets a store give up what costs least to do without, where memory is short, before the next
+/// pass fills it: first the means, without which a replay is slower, then what no lane takes next,
+/// which a replay must trace again.
 void Lab::forget(Stream& stream) {
   SampleStore& store = stream.store;
-  if (!store.is_over_budget()) {
+  store.forget_loose();
+  const std::size_t coming = coming_bytes(stream);
+  const auto fits = [&] { return store.bytes() + coming <= store.memory_budget(); };
+  if (fits()) {
     return;
   }
   const bool is_shown = &stream == &shown_;
@@ -240,18 +255,21 @@ void Lab::forget(Stream& stream) {
       }
     }
     store.forget_means();
-    if (!store.is_over_budget()) {
+    if (fits()) {
       return;
     }
   }
-  std::vector<std::uint32_t> used(std::size_t(width()) * std::size_t(height()), UINT32_MAX);
+  // A pixel that a lane is done with has most likely had its last sample from it.
+  const std::size_t pixels = std::size_t(width()) * std::size_t(height());
+  std::vector<std::uint32_t> needed(pixels, UINT32_MAX);
   for (const Lane& lane : lanes_) {
     if (takes_from(lane, stream)) {
-      std::transform(used.begin(), used.end(), lane.taken().begin(), used.begin(),
-                     [](std::uint32_t a, std::uint32_t b) { return std::min(a, b); });
+      for (std::size_t i = 0; i < pixels; ++i) {
+        needed[i] = std::min(needed[i], lane.plan().wanted[i] > 0 ? lane.taken()[i] : UINT32_MAX);
+      }
     }
   }
-  store.trim(used);
+  store.trim(needed, coming);
 }
 
 void Lab::set_settings(std::size_t lane, const LaneSettings& settings) {

@@ -100,6 +100,8 @@ class Lab {
   void advance(std::span<Lane* const> moving);
   bool replay(std::uint32_t pass, std::uint32_t last);
   bool trace(Stream& stream, std::span<Lane* const> moving, std::stop_token stop);
+  std::vector<SampleWish> wishes_of(std::span<Lane* const> lanes, const Stream& stream) const;
+  std::size_t coming_bytes(const Stream& stream);
   void forget(Stream& stream);
   void charge(bool one_pass);
 
@@ -108,9 +110,6 @@ class Lab {
   std::optional<Stream> pilot_;
   std::vector<Lane> lanes_;
   SampleCosts charged_by_;  // what all records of all lanes are charged by
-  // Samples that a pass needs, first and past the last of each pixel.
-  std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> end_;
   mutable tbb::task_arena arena_;
 };
 

@@ -67,6 +67,41 @@ TEST(LabBudget, BeyondItTheLabForgetsWhatTheSlowestLaneHasUsedAndNoMore) {
   }
 }
 
+TEST(LabBudget, WithoutMemoryAPassTracesWhatItsLanesTakeAndNothingBetween) {
+  constexpr std::uint32_t passes = 30;
+  const std::vector<LaneSettings> lane_settings{one_a_pass(40, SampleMode::reuse),
+                                                one_a_pass(1, SampleMode::reuse),
+                                                one_a_pass(20, SampleMode::reuse)};
+  const std::uint64_t least = budget_pixels * (40 + passes - 1);
+  const std::uint64_t most = budget_pixels * (40 + 3 * (passes - 1));
+  LabOptions options;
+  options.statistics.variance = true;
+  Lab ample = noisy_lab(lane_settings, options);
+  run_to(ample, passes);
+  options.memory = 1;
+  Lab none = noisy_lab(lane_settings, options);
+  run_to(none, passes);
+  EXPECT_EQ(none.store().traced(), most);
+  // Less, the more there is.
+  std::uint64_t before = most;
+  for (const std::size_t spp : {8, 16, 32}) {
+    options.memory = budget_pixels * (40 + 14 * spp);
+    Lab tight = noisy_lab(lane_settings, options);
+    for (std::uint32_t pass = 1; pass <= passes; ++pass) {
+      run_to(tight, pass);
+      if (pass > 1) {
+        EXPECT_LE(tight.stored_bytes(), options.memory) << pass;
+      }
+    }
+    EXPECT_LT(tight.store().traced(), before);
+    EXPECT_GT(tight.store().traced(), least);
+    before = tight.store().traced();
+    for (std::size_t i = 0; i < lane_settings.size(); ++i) {
+      EXPECT_EQ(ample.lanes()[i].film().image(), tight.lanes()[i].film().image());
+    }
+  }
+}
+
 TEST(LabBudget, APilotIsTracedForTheLanesThatHaveOne) {
   constexpr std::uint32_t passes = 5;
   Lab lab = noisy_lab({one_a_pass(40, SampleMode::reuse), one_a_pass(2, SampleMode::unbiased)}, {});

@@ -5,6 +5,7 @@
 
 #include "renderer/adaptive/lab.h"
 #include "renderer/base/stopwatch.h"
+#include "tests/trace/require.h"
 
 // What a lane is charged: its samples, whoever traced them, its share of reading them, and its own
 // estimates and plans. Sources state what each pixel's samples took. Of clocks only this is used:
@@ -74,8 +75,8 @@ TEST(LaneTime, IsThatOfItsSamplesOfReadingThemAndOfItsOwnWork) {
   SampleStore pilot(timed_side, timed_side, std::size_t(1) << 30);
   const std::vector<std::uint32_t> none(timed_pixels, 0);
   const std::vector<std::uint32_t> plenty(timed_pixels, 64);
-  ASSERT_TRUE(shown.require(none, plenty, dear_source(10)));
-  ASSERT_TRUE(pilot.require(none, plenty, dear_source(30)));
+  ASSERT_TRUE(test::require(shown, none, plenty, dear_source(10)));
+  ASSERT_TRUE(test::require(pilot, none, plenty, dear_source(30)));
   for (const SampleMode mode : {SampleMode::reuse, SampleMode::unbiased}) {
     SCOPED_TRACE(sample_mode(mode).id);
     const bool has_pilot = mode == SampleMode::unbiased;

@@ -190,7 +190,7 @@ TEST(Replay, SamplesAreAddedToWhatWasReplayed) {
   const LaneSettings settings = default_settings(EstimatorId::kl);
   Lab expected = replay_lab(picture, std::span(&settings, 1), true);
   run_by_pass(expected, 6);
-  Lab lab = replay_lab(picture, std::span(&settings, 1), true, 2, expected.store().bytes());
+  Lab lab = replay_lab(picture, std::span(&settings, 1), true, 2, 2 * expected.store().bytes());
   run_by_pass(lab, 6);
   restart_lanes(lab, std::span(&settings, 1));
   run_at_once(lab, 6);

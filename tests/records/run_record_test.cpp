@@ -12,6 +12,7 @@
 #include "renderer/trace/store/sample_store.h"
 #include "renderer/view/views.h"
 #include "tests/records/csv.h"
+#include "tests/trace/require.h"
 #include "tests/view/snapshot_cases.h"
 
 // Records of lanes made by hand, in which every number is another.
@@ -193,7 +194,7 @@ SampleStore used_store(std::uint32_t traced, std::size_t budget) {
     }
   };
   SampleStore store(2, 1, budget);
-  store.require(std::vector<std::uint32_t>{0, 0}, std::vector<std::uint32_t>{traced, traced},
+  test::require(store, std::vector<std::uint32_t>{0, 0}, std::vector<std::uint32_t>{traced, traced},
                 source);
   store.trim(std::vector<std::uint32_t>{1, 2});
   return store;

@@ -16,6 +16,7 @@
 
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/integrator.h"
+#include "tests/trace/require.h"
 
 namespace quartet {
 namespace {
@@ -95,7 +96,7 @@ TEST(SampleStore, TracesEachSampleOnceHoweverOftenItIsAskedFor) {
       end[p] = random() % 3 ? begin[p] + std::uint32_t(random() % 12) : begin[p];
       reached[p] = std::max(reached[p], end[p]);
     }
-    ASSERT_TRUE(store.require(begin, end, counting.source()));
+    ASSERT_TRUE(test::require(store, begin, end, counting.source()));
     expect_samples(store, begin, end);
   }
   for (std::size_t p = 0; p < pixels; ++p) {
@@ -114,7 +115,7 @@ TEST(SampleStore, TracesEachSampleOnceHoweverOftenItIsAskedFor) {
 TEST(SampleStore, AsksForNothingWhereBeginIsNotBeforeEnd) {
   CountingSource counting(3, 1, 100);
   SampleStore store(3, 1, plenty);
-  ASSERT_TRUE(store.require(Counts{5, 7, 0}, Counts{5, 2, 0}, counting.source()));
+  ASSERT_TRUE(test::require(store, Counts{5, 7, 0}, Counts{5, 2, 0}, counting.source()));
   EXPECT_EQ(counting.total(), 0u);
   EXPECT_EQ(store.stored(), 0u);
 }
@@ -122,18 +123,44 @@ TEST(SampleStore, AsksForNothingWhereBeginIsNotBeforeEnd) {
 TEST(SampleStore, BeginBeyondWhatIsStoredLeavesTheGapOut) {
   CountingSource counting(2, 1, 100);
   SampleStore store(2, 1, plenty);
-  ASSERT_TRUE(store.require(Counts{0, 0}, Counts{4, 4}, counting.source()));
-  ASSERT_TRUE(store.require(Counts{10, 4}, Counts{13, 6}, counting.source()));
+  ASSERT_TRUE(test::require(store, Counts{0, 0}, Counts{4, 4}, counting.source()));
+  ASSERT_TRUE(test::require(store, Counts{10, 4}, Counts{13, 6}, counting.source()));
   expect_samples(store, 0, 10, 13);
   expect_samples(store, 1, 0, 6);
-  EXPECT_EQ(store.stored(), 9u);
+  EXPECT_EQ(store.stored(), 10u) << "what is beyond a gap is not kept";
   EXPECT_EQ(store.traced(), 13u);
-  // What was given up for it can be made again.
-  ASSERT_TRUE(store.require(Counts{0, 0}, Counts{12, 1}, counting.source()));
+  ASSERT_TRUE(test::require(store, Counts{0, 0}, Counts{12, 1}, counting.source()));
   expect_samples(store, 0, 0, 12);
+  EXPECT_EQ(counting.times(0, 2), 1);
   EXPECT_EQ(counting.times(0, 7), 1);
-  EXPECT_EQ(counting.times(0, 2), 2);
+  EXPECT_EQ(counting.times(0, 11), 2);
   EXPECT_EQ(counting.times(1, 0), 1);
+}
+
+TEST(SampleStore, OfSeveralWishesOnlyWhatTheyNameIsTraced) {
+  CountingSource counting(1, 1, 100);
+  SampleStore store(1, 1, plenty);
+  const Counts taken[] = {{40}, {7}, {20}, {9}, {60}};
+  const std::vector<std::uint16_t> wanted[] = {{5}, {3}, {4}, {6}, {0}};
+  std::vector<SampleWish> wishes;
+  for (std::size_t i = 0; i < std::size(taken); ++i) {
+    wishes.push_back({taken[i], wanted[i]});
+  }
+  EXPECT_EQ(store.missing(wishes), 8u + 4 + 5);
+  ASSERT_TRUE(store.require(wishes, counting.source()));
+  EXPECT_EQ(counting.total(), 8u + 4 + 5);
+  expect_samples(store, 0, 7, 15);
+  expect_samples(store, 0, 20, 24);
+  expect_samples(store, 0, 40, 45);
+  // What joins is kept, the rest is loose.
+  EXPECT_EQ(store.stored(), 8u);
+  store.forget_loose();
+  EXPECT_EQ(store.missing(wishes), 4u + 5);
+  // From one before what is kept to one after it.
+  ASSERT_TRUE(test::require(store, Counts{5}, Counts{17}, counting.source()));
+  expect_samples(store, 0, 5, 17);
+  EXPECT_EQ(counting.times(0, 10), 1);
+  EXPECT_EQ(store.stored(), 10u);
 }
 
 TEST(SampleStore, KeepsSamplesWhileItGrows) {
@@ -143,7 +170,7 @@ TEST(SampleStore, KeepsSamplesWhileItGrows) {
   std::uint32_t one = 0;
   for (std::uint32_t many = 1; many < 30000; many = many * 3 / 2 + 1) {
     one = std::min(one + 1, many);
-    ASSERT_TRUE(store.require(Counts{0, 0}, Counts{one, many}, counting.source()));
+    ASSERT_TRUE(test::require(store, Counts{0, 0}, Counts{one, many}, counting.source()));
     expect_samples(store, 0, 0, one);
     expect_samples(store, 1, 0, many);
     EXPECT_EQ(counting.total(), one + many);
@@ -160,7 +187,7 @@ TEST(SampleStore, ForgetsWhatWasUsedWhenOverItsBudgetAndMakesItAgain) {
   SampleStore store(width, height, budget);
   Counts used(pixels, 0);
   Counts end(pixels, 200);
-  ASSERT_TRUE(store.require(used, end, counting.source()));
+  ASSERT_TRUE(test::require(store, used, end, counting.source()));
   EXPECT_GT(store.bytes(), budget);
   for (std::size_t p = 0; p < pixels; ++p) {
     used[p] = 150 + std::uint32_t(p % 51);  // to 200, which is all of them
@@ -175,37 +202,59 @@ TEST(SampleStore, ForgetsWhatWasUsedWhenOverItsBudgetAndMakesItAgain) {
   EXPECT_EQ(store.stored(), left);
   // Going on from there traces nothing again, ...
   Counts further(pixels, 220);
-  ASSERT_TRUE(store.require(used, further, counting.source()));
+  ASSERT_TRUE(test::require(store, used, further, counting.source()));
   expect_samples(store, used, further);
   EXPECT_EQ(counting.total(), pixels * 220);
   // ... and a replay from the start makes the same samples.
-  ASSERT_TRUE(store.require(Counts(pixels, 0), further, counting.source()));
+  ASSERT_TRUE(test::require(store, Counts(pixels, 0), further, counting.source()));
   expect_samples(store, Counts(pixels, 0), further);
   EXPECT_EQ(store.traced(), counting.total());
-  EXPECT_EQ(store.stored(), pixels * 220);
+  EXPECT_EQ(store.stored(), left + pixels * 20) << "it is not kept: it is before what is";
 }
 
 TEST(SampleStore, KeepsEverythingWhileWithinItsBudget) {
   CountingSource counting(8, 8, 100);
   SampleStore store(8, 8, plenty);
-  ASSERT_TRUE(store.require(Counts(64, 0), Counts(64, 50), counting.source()));
+  ASSERT_TRUE(test::require(store, Counts(64, 0), Counts(64, 50), counting.source()));
   store.trim(Counts(64, 50));
   EXPECT_FALSE(store.partial());
   expect_samples(store, Counts(64, 0), Counts(64, 50));
 }
 
-TEST(SampleStore, GivesUpAllWhenWhatIsUnusedAloneIsOverTheBudget) {
+TEST(SampleStore, OfMoreThanItsBudgetItKeepsWhatIsTakenFirst) {
+  constexpr std::size_t budget = std::size_t(4) << 20;
+  for (const bool is_needed : {true, false}) {
+    CountingSource counting(64, 64, 600);
+    SampleStore store(64, 64, budget);
+    const Counts none(64 * 64, 0);
+    const Counts end(64 * 64, 500);
+    ASSERT_TRUE(test::require(store, none, end, counting.source()));
+    // By lanes that are behind, or by a replay that may come.
+    store.trim(Counts(64 * 64, is_needed ? 100 : UINT32_MAX));
+    EXPECT_TRUE(store.partial());
+    EXPECT_LE(store.bytes(), budget);
+    EXPECT_GT(store.bytes(), budget * 9 / 10);
+    const auto kept = std::uint32_t(store.stored() / (64 * 64));
+    EXPECT_EQ(store.stored() % (64 * 64), 0u);
+    const std::uint32_t first = is_needed ? 100 : 0;
+    const Counts begin(64 * 64, first);
+    ASSERT_TRUE(test::require(store, begin, Counts(64 * 64, first + kept), counting.source()));
+    EXPECT_EQ(counting.total(), 64u * 64 * 500) << "nothing is traced again";
+    ASSERT_TRUE(test::require(store, begin, Counts(64 * 64, first + kept + 1), counting.source()));
+    EXPECT_EQ(counting.total(), 64u * 64 * 501);
+    expect_samples(store, begin, Counts(64 * 64, first + kept + 1));
+  }
+}
+
+TEST(SampleStore, MakesRoomForWhatComes) {
+  constexpr std::size_t budget = std::size_t(4) << 20;
   CountingSource counting(64, 64, 600);
-  SampleStore store(64, 64, std::size_t(4) << 20);
-  const Counts none(64 * 64, 0);
-  const Counts end(64 * 64, 500);
-  ASSERT_TRUE(store.require(none, end, counting.source()));
-  store.trim(none);
-  EXPECT_TRUE(store.partial());
-  EXPECT_LE(store.bytes(), std::size_t(4) << 20);
-  EXPECT_EQ(store.stored(), 0u);
-  ASSERT_TRUE(store.require(Counts(64 * 64, 30), Counts(64 * 64, 40), counting.source()));
-  expect_samples(store, Counts(64 * 64, 30), Counts(64 * 64, 40));
+  SampleStore store(64, 64, budget);
+  ASSERT_TRUE(test::require(store, Counts(64 * 64, 0), Counts(64 * 64, 40), counting.source()));
+  ASSERT_LT(store.bytes(), budget);
+  store.trim(Counts(64 * 64, 0), std::size_t(3) << 20);
+  EXPECT_LE(store.bytes(), std::size_t(1) << 20);
+  EXPECT_GT(store.stored(), 0u);
 }
 
 TEST(SampleStore, BlocksAreUsedAgain) {
@@ -213,7 +262,7 @@ TEST(SampleStore, BlocksAreUsedAgain) {
   CountingSource counting(64, 64, 600);
   SampleStore store(64, 64, plenty);
   for (std::uint32_t n = 4; n <= 512; n *= 2) {
-    ASSERT_TRUE(store.require(Counts(64 * 64, 0), Counts(64 * 64, n), counting.source()));
+    ASSERT_TRUE(test::require(store, Counts(64 * 64, 0), Counts(64 * 64, n), counting.source()));
   }
   EXPECT_LT(store.bytes(), 2.2 * double(store.stored()) * sizeof(glm::vec3));
 }
@@ -224,17 +273,17 @@ TEST(SampleStore, ASourceThatThrowsLeavesTheStoreUsable) {
   const Counts none(64 * 64, 0);
   const Counts some(64 * 64, 3);
   const Counts more(64 * 64, 9);
-  ASSERT_TRUE(store.require(none, some, counting.source()));
+  ASSERT_TRUE(test::require(store, none, some, counting.source()));
   const SampleSource failing = [](int x, int, std::uint32_t, std::span<glm::vec3> radiance) {
     if (x == 40) {
       throw std::runtime_error("no more");
     }
     std::fill(radiance.begin(), radiance.end(), glm::vec3(-1.0f));
   };
-  EXPECT_THROW(store.require(none, more, failing), std::runtime_error);
+  EXPECT_THROW(test::require(store, none, more, failing), std::runtime_error);
   expect_samples(store, none, some);
   EXPECT_EQ(store.stored(), 64u * 64 * 3);
-  ASSERT_TRUE(store.require(none, more, counting.source()));
+  ASSERT_TRUE(test::require(store, none, more, counting.source()));
   expect_samples(store, none, more);
 }
 
@@ -259,7 +308,7 @@ TEST(SampleStore, SharesTheTimeOfAPassAmongTheCellsOfThePicture) {
   };
   double before = 0.0;
   for (const std::uint16_t count : {std::uint16_t(3), std::uint16_t(9)}) {
-    ASSERT_TRUE(store.require(Counts(size, 0), Counts(size, count), slow));
+    ASSERT_TRUE(test::require(store, Counts(size, 0), Counts(size, count), slow));
     EXPECT_EQ(work_of(count, 0), side * side * count * (1 + 1));
     EXPECT_EQ(work_of(count, 1), side * side * count * (1 + 4));
     SampleCosts::Work left;
@@ -298,7 +347,7 @@ TEST(SampleStore, KnowsTheRaysOfEachSampleOfEachPixel) {
   }
   for (const bool keep_means : {false, true}) {
     SampleStore store(columns, rows, plenty, keep_means);
-    ASSERT_TRUE(store.require(Counts(taken.size(), 0), taken, source));
+    ASSERT_TRUE(test::require(store, Counts(taken.size(), 0), taken, source));
     std::uint64_t work = 0;
     for (int row = 0; row < store.tile_rows(); ++row) {
       for (int column = 0; column < store.tile_columns(); ++column) {
@@ -344,7 +393,7 @@ TEST(SampleStoreThreads, StoppingAPassKeepsWhatIsDone) {
   const Counts none(pixels, 0);
   const Counts some(pixels, 5);
   const Counts more(pixels, 20);
-  ASSERT_TRUE(store.require(none, some, counting.source()));
+  ASSERT_TRUE(test::require(store, none, some, counting.source()));
   std::stop_source stop;
   std::atomic<int> calls = 0;
   const SampleSource stopping = [&, trace = counting.source()](int x, int y, std::uint32_t first,
@@ -354,14 +403,14 @@ TEST(SampleStoreThreads, StoppingAPassKeepsWhatIsDone) {
     }
     trace(x, y, first, radiance);
   };
-  EXPECT_FALSE(store.require(none, more, stopping, stop.get_token()));
+  EXPECT_FALSE(test::require(store, none, more, stopping, stop.get_token()));
   EXPECT_EQ(store.traced(), counting.total());
   EXPECT_EQ(store.stored(), counting.total());
   EXPECT_GT(counting.total(), pixels * 5);
   EXPECT_LT(counting.total(), pixels * 20);
   expect_samples(store, none, some);
   // The rest, and only the rest, is traced when it is asked for again.
-  ASSERT_TRUE(store.require(none, more, counting.source()));
+  ASSERT_TRUE(test::require(store, none, more, counting.source()));
   EXPECT_EQ(counting.total(), pixels * 20);
   expect_samples(store, none, more);
 }
@@ -371,8 +420,8 @@ TEST(SampleStoreThreads, APassThatIsStoppedBeforeItBeginsTracesNothing) {
   SampleStore store(64, 64, plenty);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_FALSE(
-      store.require(Counts(64 * 64, 0), Counts(64 * 64, 4), counting.source(), stop.get_token()));
+  EXPECT_FALSE(test::require(store, Counts(64 * 64, 0), Counts(64 * 64, 4), counting.source(),
+                             stop.get_token()));
   EXPECT_EQ(counting.total(), 0u);
   EXPECT_EQ(store.stored(), 0u);
 }
@@ -400,8 +449,8 @@ TEST(SampleStoreThreads, AnyNumberOfThreadsGivesTheSameSamples) {
     SampleStore store(settings.width, settings.height, plenty);
     arena.execute([&] {
       // In two passes, so that ranges grow.
-      ASSERT_TRUE(store.require(Counts(pixels, 0), Counts(pixels, 1), source));
-      ASSERT_TRUE(store.require(Counts(pixels, 0), end, source));
+      ASSERT_TRUE(test::require(store, Counts(pixels, 0), Counts(pixels, 1), source));
+      ASSERT_TRUE(test::require(store, Counts(pixels, 0), end, source));
     });
     std::vector<glm::vec3> all;
     for (std::size_t p = 0; p < pixels; ++p) {

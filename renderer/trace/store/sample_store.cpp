@@ -106,93 +106,107 @@ void SampleStore::make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end
   }
 }
 
-void SampleStore::release_planes_below(Tile& tile, std::uint32_t index) {
-  const std::size_t count =
-      index > tile.base ? std::min<std::size_t>(index - tile.base, tile.samples.size()) : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (tile.samples[i]) {
-      sample_planes_.release(tile.samples[i]);
+/// Calls missing(run, is_loose) for what a pixel lacks of what is wanted of it. What follows its
+/// last sample is kept; what does not is loose, so that nothing between has to be traced.
+template <class Missing>
+void SampleStore::find_missing(std::size_t pixel, std::span<const SampleRun> wanted,
+                               const Missing& missing) const {
+  std::uint32_t first = firsts_[pixel];
+  std::uint32_t end = ends_[pixel];
+  if (first == end && !has_means_ && !wanted.empty()) {
+    first = end = wanted.front().begin;  // it begins anew
+  }
+  for (const auto& [from, to] : wanted) {
+    if (from < first) {
+      missing(SampleRun{from, std::min(to, first)}, true);
+    }
+    const std::uint32_t begin = std::max(from, first);
+    if (begin > end && begin < to) {
+      missing(SampleRun{begin, to}, true);
+    } else if (to > end) {
+      missing(SampleRun{end, to}, false);
+      end = to;
     }
   }
-  tile.samples.erase(tile.samples.begin(), tile.samples.begin() + std::ptrdiff_t(count));
-  tile.base += std::uint32_t(count);
-}
-
-void SampleStore::clear(std::size_t pixel) {
-  stored_ -= ends_[pixel] - firsts_[pixel];
-  firsts_[pixel] = 0;
-  ends_[pixel] = 0;
 }
 
 /// Lists what is missing, with planes to put it in; tiles are looked at side by side.
-void SampleStore::plan_pass(std::span<const std::uint32_t> begin,
-                            std::span<const std::uint32_t> end) {
-  std::vector<std::size_t> first_jobs(tiles_.size() + 1, 0);  // at first: how many, one tile on
-  std::atomic<std::uint64_t> cleared = 0;
+void SampleStore::plan_pass(std::span<const SampleWish> wishes) {
+  pass_.clear(tiles_.size());
   std::mutex pools;
   parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    WishedRuns wished;
     for (std::size_t tile = first; tile < last; ++tile) {
       // The planes made last: neighbours mostly want the same.
-      std::uint32_t made_begin = 0;
-      std::uint32_t made_end = 0;
+      SampleRun made{0, 0};
       for (const std::uint32_t pixel : pixels_of(tile)) {
-        if (begin[pixel] >= end[pixel]) {
-          continue;
-        }
-        if (begin[pixel] < firsts_[pixel] || begin[pixel] > ends_[pixel]) {
-          // A gap, which a store with means never has: no lane is ahead of what was traced for it.
-          assert(!has_means_);
-          cleared += ends_[pixel] - firsts_[pixel];
-          firsts_[pixel] = ends_[pixel] = begin[pixel];
-        }
-        if (end[pixel] <= ends_[pixel]) {
-          continue;
-        }
-        if (ends_[pixel] < made_begin || end[pixel] > made_end) {
-          made_begin = ends_[pixel];
-          made_end = end[pixel];
-          make_planes(tiles_[tile], made_begin, made_end, pools);
-        }
-        ++first_jobs[tile + 1];
+        find_missing(pixel, wished.of(wishes, pixel), [&](SampleRun run, bool is_loose) {
+          ++pass_.count(tile);
+          if (is_loose || (run.begin >= made.begin && run.end <= made.end)) {
+            return;
+          }
+          made = run;
+          make_planes(tiles_[tile], run.begin, run.end, pools);
+        });
       }
     }
   });
-  stored_ -= cleared;
-  std::partial_sum(first_jobs.begin(), first_jobs.end(), first_jobs.begin());
-  jobs_.resize(first_jobs.back());
+  pass_.make_jobs();
   parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    WishedRuns wished;
     for (std::size_t tile = first; tile < last; ++tile) {
-      std::size_t job = first_jobs[tile];
+      std::size_t job = pass_.first_job(tile);
       for (const std::uint32_t pixel : pixels_of(tile)) {
-        if (begin[pixel] < end[pixel] && ends_[pixel] < end[pixel]) {
-          jobs_[job++] = {.pixel = pixel, .count = end[pixel] - ends_[pixel]};
-        }
+        find_missing(pixel, wished.of(wishes, pixel), [&](SampleRun run, bool is_loose) {
+          if (!is_loose && firsts_[pixel] == ends_[pixel]) {
+            firsts_[pixel] = ends_[pixel] = run.begin;
+          }
+          pass_.jobs()[job++] = {.pixel = pixel,
+                                 .first = run.begin,
+                                 .count = run.end - run.begin,
+                                 .is_loose = is_loose};
+        });
       }
     }
   });
+  pass_.make_loose();
 }
 
-bool SampleStore::require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
-                          const SampleSource& source, std::stop_token stop) {
-  assert(begin.size() == ends_.size() && end.size() == ends_.size());
+std::uint64_t SampleStore::missing(std::span<const SampleWish> wishes) const {
+  std::atomic<std::uint64_t> all = 0;
+  parallel_for(tiles_.size(), grain_tiles, [&](std::size_t first, std::size_t last) {
+    WishedRuns wished;
+    std::uint64_t samples = 0;
+    for (std::size_t i = first_pixels_[first]; i < first_pixels_[last]; ++i) {
+      find_missing(pixels_[i], wished.of(wishes, pixels_[i]),
+                   [&](SampleRun run, bool) { samples += run.end - run.begin; });
+    }
+    all += samples;
+  });
+  return all;
+}
+
+bool SampleStore::require(std::span<const SampleWish> wishes, const SampleSource& source,
+                          std::stop_token stop) {
   // Planning is part of what a pass costs.
   const Stopwatch watch;
-  plan_pass(begin, end);
-  if (jobs_.empty()) {
+  plan_pass(wishes);
+  const std::span<Job> all = pass_.jobs();
+  if (all.empty()) {
     return true;
   }
   std::size_t samples = 0;
-  for (const Job& job : jobs_) {
+  for (const Job& job : all) {
     samples += job.count;
   }
-  const std::size_t grain = std::max<std::size_t>(batch_samples * jobs_.size() / samples, 1);
-  parallel_for(jobs_.size(), grain, [&](std::size_t first, std::size_t last) {
+  const std::size_t grain = std::max<std::size_t>(batch_samples * all.size() / samples, 1);
+  parallel_for(all.size(), grain, [&](std::size_t first, std::size_t last) {
     while (first < last && !stop.stop_requested()) {
       std::size_t next = first;
       for (std::size_t count = 0; next < last && count < batch_samples; ++next) {
-        count += jobs_[next].count;
+        count += all[next].count;
       }
-      trace_batch(std::span(jobs_).subspan(first, next - first), source);
+      trace_batch(all.subspan(first, next - first), source);
       first = next;
     }
   });
@@ -215,7 +229,7 @@ void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
   for (std::size_t begin = 0; const Job& job : jobs) {
     asked.push_back({.x = int(job.pixel) % width_,
                      .y = int(job.pixel) / width_,
-                     .first = ends_[job.pixel],
+                     .first = job.first,
                      .radiance = std::span(radiance).subspan(begin, job.count),
                      .rays = std::span(rays).subspan(begin, job.count)});
     begin += job.count;
@@ -224,26 +238,37 @@ void SampleStore::trace_batch(std::span<Job> jobs, const SampleSource& source) {
   double work = 0.0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Job& job = jobs[i];
-    const Place place = places_[job.pixel];
-    const Tile& tile = tiles_[place.tile];
-    const std::span<const glm::vec3> samples = asked[i].radiance;
     job.work = job.count;
     for (std::uint32_t k = 0; k < job.count; ++k) {
-      SamplePlane& plane = *tile.samples[asked[i].first + k - tile.base];
-      plane.radiance[place.offset] = samples[k];
-      plane.rays[place.offset] = asked[i].rays[k];
       job.work += asked[i].rays[k];
-      job.rejected |= !acceptable(samples[k]);
+      job.rejected |= !acceptable(asked[i].radiance[k]);
     }
-    if (has_means_) {
-      append_means(asked[i], job.pixel);
-    }
+    keep(job, asked[i]);
     job.traced = true;
     work += asked[i].work;
   }
   const double ticks_per_work = double(__rdtsc() - start) / work;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     jobs[i].ticks = asked[i].work * ticks_per_work;
+  }
+}
+
+/// Puts traced samples where they are looked for.
+void SampleStore::keep(const Job& job, const SampleJob& made) {
+  if (job.is_loose) {
+    std::ranges::copy(made.radiance, pass_.radiance(job).begin());
+    std::ranges::copy(made.rays, pass_.rays(job).begin());
+    return;
+  }
+  const Place place = places_[job.pixel];
+  const Tile& tile = tiles_[place.tile];
+  for (std::uint32_t k = 0; k < job.count; ++k) {
+    SamplePlane& plane = *tile.samples[job.first + k - tile.base];
+    plane.radiance[place.offset] = made.radiance[k];
+    plane.rays[place.offset] = made.rays[k];
+  }
+  if (has_means_) {
+    append_means(made, job.pixel);
   }
 }
 
@@ -298,8 +323,14 @@ std::uint64_t SampleStore::tile_work(int column, int row, std::span<const std::u
       const std::size_t pixel = corner + std::size_t(y) * width + std::size_t(x);
       const std::size_t offset = std::size_t(y) * std::size_t(tile_size) + std::size_t(x);
       const std::uint32_t count = wanted[pixel];
-      const SamplePlane* const* planes = tile.samples.data() + (taken[pixel] - count - tile.base);
       work += count;
+      if (pass_.has_loose() && !keeps(pixel, taken[pixel] - count, count)) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+          work += sample(pixel, taken[pixel] - count + k).rays;
+        }
+        continue;
+      }
+      const SamplePlane* const* planes = tile.samples.data() + (taken[pixel] - count - tile.base);
       for (std::uint32_t k = 0; k < count; ++k) {
         work += planes[k]->rays[offset];
       }
@@ -308,11 +339,23 @@ std::uint64_t SampleStore::tile_work(int column, int row, std::span<const std::u
   return work;
 }
 
+/// A sample that is kept or loose.
+StorePass::Sample SampleStore::sample(std::size_t pixel, std::uint32_t index) const {
+  const Place place = places_[pixel];
+  if (!keeps(pixel, index, 1)) {
+    return pass_.loose(place.tile, std::uint32_t(pixel), index);
+  }
+  const Tile& tile = tiles_[place.tile];
+  const SamplePlane& plane = *tile.samples[index - tile.base];
+  return {plane.radiance[place.offset], plane.rays[place.offset]};
+}
+
 /// Counts what was traced and shares the pass's wall-clock time by the ticks that each pixel took,
 /// so that the shares add up to what a user waits.
 void SampleStore::finish_pass(double wall) {
+  const std::span<const Job> jobs = pass_.jobs();
   double total = 0.0;
-  for (const Job& job : jobs_) {
+  for (const Job& job : jobs) {
     total += job.ticks;
     if (job.rejected) {
       tiles_[places_[job.pixel].tile].rejected = true;
@@ -321,7 +364,7 @@ void SampleStore::finish_pass(double wall) {
   const double seconds_per_tick = wall / std::max(total, 1.0);
   std::uint32_t tile = 0;
   std::size_t cell = cell_of(tile);
-  for (const Job& job : jobs_) {
+  for (const Job& job : jobs) {
     // Jobs come tile by tile, so that the cell is seldom looked for.
     if (const std::uint32_t next = places_[job.pixel].tile; next != tile) {
       tile = next;
@@ -332,59 +375,27 @@ void SampleStore::finish_pass(double wall) {
     }
   }
   std::atomic<std::uint64_t> made = 0;
-  parallel_for(jobs_.size(), grain_checks, [&](std::size_t first, std::size_t last) {
+  std::atomic<std::uint64_t> kept = 0;
+  parallel_for(jobs.size(), grain_checks, [&](std::size_t first, std::size_t last) {
     std::uint64_t count = 0;
+    std::uint64_t kept_count = 0;
     for (std::size_t i = first; i < last; ++i) {
-      const Job& job = jobs_[i];
+      const Job& job = jobs[i];
       if (!job.traced) {
         continue;  // the pass was stopped before this pixel
       }
-      ends_[job.pixel] += job.count;
       count += job.count;
+      if (!job.is_loose) {
+        ends_[job.pixel] += job.count;
+        kept_count += job.count;
+      }
     }
     made += count;
+    kept += kept_count;
   });
-  stored_ += made;
+  stored_ += kept;
   traced_ += made;
   seconds_ += wall;
-}
-
-void SampleStore::forget_means() {
-  has_means_ = false;
-  for (Tile& tile : tiles_) {
-    tile.means = std::vector<MeanPlane*>();
-  }
-  mean_planes_ = {};
-  prefixes_ = std::vector<Prefix>();
-}
-
-void SampleStore::trim(std::span<const std::uint32_t> used) {
-  assert(used.size() == ends_.size());
-  if (bytes() <= memory_budget_) {
-    return;
-  }
-  forget_means();
-  partial_ = true;
-  std::vector<std::uint32_t> needed(tiles_.size(), UINT32_MAX);
-  for (std::size_t pixel = 0; pixel < ends_.size(); ++pixel) {
-    const std::uint32_t first = std::clamp(used[pixel], firsts_[pixel], ends_[pixel]);
-    stored_ -= first - firsts_[pixel];
-    firsts_[pixel] = first;
-    needed[places_[pixel].tile] = std::min(needed[places_[pixel].tile], first);
-  }
-  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-    release_planes_below(tiles_[tile], needed[tile]);
-  }
-  // Lanes so far apart that what lies between them fills the budget: trace it again when wanted.
-  if (bytes() > memory_budget_) {
-    for (std::size_t pixel = 0; pixel < ends_.size(); ++pixel) {
-      clear(pixel);
-    }
-    for (Tile& tile : tiles_) {
-      tile = {};
-    }
-    sample_planes_ = {};
-  }
 }
 
 std::size_t SampleStore::bytes() const {
@@ -393,8 +404,9 @@ std::size_t SampleStore::bytes() const {
     pointers += (tile.samples.capacity() + tile.means.capacity()) * sizeof(void*);
   }
   constexpr std::size_t per_pixel = sizeof(Place) + 3 * sizeof(std::uint32_t);
-  return sample_planes_.bytes() + mean_planes_.bytes() + pointers + tiles_.size() * sizeof(Tile) +
-         ends_.size() * per_pixel + prefixes_.size() * sizeof(Prefix);
+  return sample_planes_.bytes() + mean_planes_.bytes() + pass_.bytes() + pointers +
+         tiles_.size() * sizeof(Tile) + ends_.size() * per_pixel +
+         prefixes_.size() * sizeof(Prefix);
 }
 
 }  // namespace quartet

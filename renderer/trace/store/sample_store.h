@@ -12,6 +12,8 @@
 #include "renderer/trace/store/running_mean.h"
 #include "renderer/trace/store/sample_costs.h"
 #include "renderer/trace/store/sample_source.h"
+#include "renderer/trace/store/sample_wish.h"
+#include "renderer/trace/store/store_pass.h"
 
 namespace quartet {
 
@@ -33,7 +35,7 @@ class SampleStore {
 
   /// Another budget, which is looked at when something is to be forgotten.
   void set_memory_budget(std::size_t bytes) { memory_budget_ = bytes; }
-  bool is_over_budget() const { return bytes() > memory_budget_; }
+  std::size_t memory_budget() const { return memory_budget_; }
 
   /// Whether samples taken[p] … taken[p] + wanted[p] − 1 of each pixel p are available.
   bool holds(std::span<const std::uint32_t> taken, std::span<const std::uint16_t> wanted) const;
@@ -41,23 +43,35 @@ class SampleStore {
   /// Past the last sample of each pixel that is available.
   std::span<const std::uint32_t> ends() const { return ends_; }
 
-  /// Makes samples [begin[p], end[p]) of each pixel p available; nothing where begin ≥ end. Traces
-  /// what is missing on the threads of the current TBB arena. Returns false if `stop` ended it
-  /// early; what was traced until then is kept.
-  bool require(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end,
-               const SampleSource& source, std::stop_token stop = {});
+  /// Makes what is wished for available until the next call. Traces what is missing, and nothing
+  /// between, on the threads of the current TBB arena. Returns false if `stop` ended it early; what
+  /// was traced until then and is to be kept, is.
+  bool require(std::span<const SampleWish> wishes, const SampleSource& source,
+               std::stop_token stop = {});
+  /// Samples that it would trace for that.
+  std::uint64_t missing(std::span<const SampleWish> wishes) const;
 
   /// Copies samples begin, begin + 1, … of a pixel, which must be available, into `out`.
   void read(std::size_t pixel, std::uint32_t begin, std::span<glm::vec3> out) const {
+    const auto count = std::uint32_t(out.size());
+    if (pass_.has_loose() && !keeps(pixel, begin, count)) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        out[i] = sample(pixel, begin + i).radiance;
+      }
+      return;
+    }
     const Place place = places_[pixel];
     const Tile& tile = tiles_[place.tile];
-    for (std::uint32_t i = 0; i < out.size(); ++i) {
+    for (std::uint32_t i = 0; i < count; ++i) {
       out[i] = tile.samples[begin + i - tile.base]->radiance[place.offset];
     }
   }
 
   /// Fetches `count` samples of a pixel from `begin` on, which must be available, into the cache.
   void prefetch(std::size_t pixel, std::uint32_t begin, std::uint32_t count) const {
+    if (pass_.has_loose() && !keeps(pixel, begin, count)) {
+      return;
+    }
     const Place place = places_[pixel];
     const Tile& tile = tiles_[place.tile];
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -100,9 +114,14 @@ class SampleStore {
 
   /// Gives the memory of the means back, for good.
   void forget_means();
+  /// Gives back what was traced for the last require() alone.
+  void forget_loose() { pass_.forget_loose(); }
 
-  /// Forgets samples below used[p] of each pixel, and all means, if the store is over its budget.
-  void trim(std::span<const std::uint32_t> used);
+  /// If the store with `coming` bytes more is over its budget, forgets means, and samples that
+  /// nobody takes soon: those below needed[p] of each pixel p, the lowest that somebody takes next
+  /// (UINT32_MAX: nobody takes any), and if that is not enough those of the highest numbers, which
+  /// are taken last. Where nobody needs any sample, a replay needs the lowest first.
+  void trim(std::span<const std::uint32_t> needed, std::size_t coming = 0);
 
   /// Work of the last wanted[p] of the first taken[p] samples of the pixels of a tile, which must
   /// be available, in the units of SampleCosts.
@@ -142,26 +161,29 @@ class SampleStore {
     std::uint32_t end = 0;
   };
 
-  /// Samples to append to a pixel, and how it went.
-  struct Job {
-    std::uint32_t pixel;
-    std::uint32_t count;
-    std::uint64_t work = 0;  // in the units of SampleCosts
-    double ticks = 0.0;
-    bool traced = false;
-    bool rejected = false;  // any of them
-  };
+  using Job = StorePass::Job;
 
   std::span<const std::uint32_t> pixels_of(std::size_t tile) const {
     return std::span(pixels_).subspan(first_pixels_[tile],
                                       first_pixels_[tile + 1] - first_pixels_[tile]);
   }
   void make_planes(Tile& tile, std::uint32_t begin, std::uint32_t end, std::mutex& pools);
-  void release_planes_below(Tile& tile, std::uint32_t index);
-  void clear(std::size_t pixel);
-  void plan_pass(std::span<const std::uint32_t> begin, std::span<const std::uint32_t> end);
+  void keep_planes(Tile& tile, std::uint32_t begin, std::uint32_t end);
+  /// Whether it keeps `count` samples of a pixel from `begin` on.
+  bool keeps(std::size_t pixel, std::uint32_t begin, std::uint32_t count) const {
+    return begin >= firsts_[pixel] && begin + count <= ends_[pixel];
+  }
+  StorePass::Sample sample(std::size_t pixel, std::uint32_t index) const;
+  template <class Missing>
+  void find_missing(std::size_t pixel, std::span<const SampleRun> wanted,
+                    const Missing& missing) const;
+  void plan_pass(std::span<const SampleWish> wishes);
   void trace_batch(std::span<Job> jobs, const SampleSource& source);
+  void keep(const Job& job, const SampleJob& made);
   void append_means(const SampleJob& made, std::uint32_t pixel);
+  SampleRun first_of_tile(std::size_t tile, std::uint32_t count) const;
+  std::size_t bytes_of_first(std::uint32_t count) const;
+  void keep_first(std::uint32_t count);
   void finish_pass(double wall);
   std::size_t cell_of(std::uint32_t tile) const;
 
@@ -178,7 +200,7 @@ class SampleStore {
   PlanePool<SamplePlane> sample_planes_;
   PlanePool<MeanPlane> mean_planes_;
   std::vector<Prefix> prefixes_;
-  std::vector<Job> jobs_;  // of the pass under way; kept for its memory
+  StorePass pass_;  // the one under way, or the last; kept for its memory
   SampleCosts costs_;
   std::uint64_t traced_ = 0;
   std::uint64_t stored_ = 0;
