@@ -3,14 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "renderer/base/number_text.h"
-#include "renderer/view/sweep_charts.h"
 
 namespace quartet {
 namespace {
+
+/// Colours that can be told apart on white paper, one a part; they repeat after thirteen.
+Rgba8 part_color(std::size_t part) {
+  constexpr std::array colors{Rgba8{31, 119, 180}, Rgba8{230, 110, 0},  Rgba8{44, 150, 44},
+                              Rgba8{214, 39, 40},  Rgba8{130, 80, 180}, Rgba8{140, 86, 75},
+                              Rgba8{220, 90, 180}, Rgba8{23, 175, 195}, Rgba8{160, 160, 20},
+                              Rgba8{20, 60, 110},  Rgba8{0, 110, 90},   Rgba8{120, 0, 60},
+                              Rgba8{150, 150, 150}};
+  return colors[part % colors.size()];
+}
 
 constexpr Rgba8 limit_color{150, 60, 60};
 constexpr Rgba8 smallest_color{0, 0, 0};
@@ -73,8 +83,8 @@ class NeedsChart {
     std::size_t color = 1;
     for (const NeedsRow& row : result_.rows) {
       if (row.simplification.part != PartId::depth) {
-        add_interval(row, paper_color(color));
-        add_mark(row, paper_color(color), row.simplification.label);
+        add_interval(row, part_color(color));
+        add_mark(row, part_color(color), row.simplification.label);
         ++color;
       }
     }
@@ -115,7 +125,7 @@ class NeedsChart {
   }
 
   void add_depths() {
-    const Rgba8 color = paper_color(0);
+    const Rgba8 color = part_color(0);
     Line line{.label = "depth", .color = color, .points = {}};
     for (const NeedsRow& row : result_.rows) {
       if (row.simplification.part == PartId::depth) {
