@@ -319,7 +319,7 @@ TEST_F(SweepCommands, ClaimsJudgesEveryFinding) {
   std::vector<std::string> as_json = words;
   as_json.emplace_back("--json");
   const auto json = nlohmann::json::parse(run(as_json).out);
-  EXPECT_EQ(json.at("findings").size(), 5u);
+  EXPECT_EQ(json.at("findings").size(), 6u);
   EXPECT_EQ(json.at("seeds"), 2);
 
   const auto other = run({"claims", "veach-plates", "--size", "16x9"});
