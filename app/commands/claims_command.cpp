@@ -70,6 +70,7 @@ void add_claims_command(CLI::App& app, const Program& program) {
   options->run.size = "960x540";  // the report's own
   // Its lanes are those of the report: nothing of them can be chosen.
   add_scene_options(*command, options->run);
+  command->get_option("--size")->description("Picture size; the report's if not given");
   add_threads_option(*command, options->run);
   add_memory_option(*command, options->run);
   command->get_option("scene")->required(false)->capture_default_str()->description(

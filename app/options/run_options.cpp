@@ -229,8 +229,9 @@ Run prepare_run(const RunOptions& options, std::size_t lanes) {
 void tell_if_partial(bool partial, const RunOptions& options) {
   if (partial) {
     tell(
-        "the samples outgrew --memory ({} GiB): the oldest were forgotten, and replays trace them "
-        "again",
+        "the samples outgrew --memory ({} GiB): some were forgotten, and are traced again where "
+        "they "
+        "are needed",
         options.memory_gib);
   }
 }

@@ -45,14 +45,17 @@ std::string trials_csv(std::span<const CaseResult> results) {
 void add_cell(std::string& csv, const CaseResult& result, const Cell& cell) {
   const LaneSettings& settings = cell.subject.settings;
   const std::string row = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{:g},{:g},{:g}", cell.failure->id, cell.failure->scene,
+      "{},{},{},{},{},{},{},{},{},{:g},{},{:g}", cell.failure->id, cell.failure->scene,
       sampler_row(result.sampler).id, cell.subject.id, role_id(cell.subject.role),
       estimator(settings.estimator).id, policy(settings.policy.kind).id, terms_row(cell.terms).id,
-      thresholds_text(settings), result.limit, double(result.truth.spp), result.truth.noise);
+      thresholds_text(settings), result.limit, result.truth.spp, result.truth.noise);
   const auto number = [&](std::string_view metric, double value) {
     csv += fmt::format("{},{},{:.9g},,,,\n", row, metric, value);
   };
   const auto interval = [&](std::string_view metric, const Interval& value) {
+    if (std::isnan(value.mean)) {
+      return;
+    }
     csv += fmt::format("{},{},{:.9g},{:.9g},{:.9g},,\n", row, metric, value.mean, value.low,
                        value.high);
   };

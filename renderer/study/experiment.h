@@ -75,6 +75,12 @@ class Experiment {
 
   /// Samples that all runs together have used; that they were traced once is what saves time.
   std::uint64_t samples_used() const { return samples_used_; }
+  /// Of those, pilots' included, the ones that were traced.
+  std::uint64_t samples_traced() const {
+    return lab_.store().traced() + (lab_.pilot_store() ? lab_.pilot_store()->traced() : 0);
+  }
+  /// Whether samples were forgotten, and some traced again.
+  bool partial() const { return lab_.partial(); }
 
  private:
   Measurement measure(const RunPlan& plan, bool is_end) const;

@@ -329,9 +329,9 @@ std::optional<SweepResult> run_sweep(
     }
     std::ranges::for_each(sums.lines, [&](LineSums& line) { line.forget_incomplete(k + 1); });
     sums.uniform.forget_incomplete(k + 1);
-    result.samples_traced += experiment.store().traced();
+    result.samples_traced += experiment.samples_traced();
     result.samples_used += experiment.samples_used();
-    result.partial |= experiment.store().partial();
+    result.partial |= experiment.partial();
   }
   if (sums.metric != nullptr) {
     std::ranges::transform(sums.lines, std::back_inserter(result.parts), &LineSums::parts);

@@ -171,8 +171,10 @@ SweepLine uniform_line(const SweepResult& result, const SweepPlan& plan) {
   std::vector<std::span<const Measurement>> seeds(result.uniform.begin(), result.uniform.end());
   SweepLine line{{.settings = default_settings(EstimatorId::uniform)},
                  points_of(seeds, parts_metric(plan) ? &result.uniform_parts : nullptr)};
-  for (SweepPoint& point : line.points) {
-    point.against_uniform.fill({1.0, 1.0, 1.0});
+  if (metric(plan.metrics.front()).scale != MetricScale::decibels) {
+    for (SweepPoint& point : line.points) {
+      point.against_uniform.fill({1.0, 1.0, 1.0});
+    }
   }
   return line;
 }

@@ -88,9 +88,11 @@ TEST(SweepFiles, EveryColumnHoldsItsOwnNumber) {
   const std::string kl = scene + "kl,vote,reuse," + thresholds + ",";
   const std::string twin = scene + "kl,vote,unbiased," + thresholds + ",";
   const std::string clamp = scene + "uniform-clamp,vote,reuse,,";
-  std::vector<std::string> lines{
+  const std::string header =
       "scene,sampler,estimator,policy,mode,thresholds,seed,pass,seconds,rays,samples,"
-      "mean_spp,metric,value",
+      "mean_spp,metric,value";
+  std::vector<std::string> lines{
+      header,
       uniform + "40,1,0.500000,0,0,1.000000,mse,1.6",
       uniform + "40,1,0.500000,0,0,1.000000,energy_error,0",
       uniform + "40,4,2.000000,0,0,4.000000,mse,0.4",

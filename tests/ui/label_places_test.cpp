@@ -29,10 +29,8 @@ TEST(LabelPlaces, NeverOverlapAsLongAsThereIsRoomForAll) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-20.0, 320.0);
   for (int count = 1; count <= 30; ++count) {
-    std::vector<double> wanted;
-    for (int i = 0; i < count; ++i) {
-      wanted.push_back(place(random));
-    }
+    std::vector<double> wanted(static_cast<std::size_t>(count));
+    std::ranges::generate(wanted, [&] { return place(random); });
     std::ranges::sort(wanted);
     const std::vector<double> found = label_places(wanted, 10.0, 0.0, 300.0);
     ASSERT_EQ(found.size(), wanted.size());

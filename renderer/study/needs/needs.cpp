@@ -46,7 +46,7 @@ class NeedsStudy {
     result_.seconds = pictures_.seconds;
     result_.rejected = pictures_.rejected;
     result_.smallest_model = whole_;
-    result_.can_be_met = result_.noise_floor.mean <= result_.limit;
+    result_.can_be_met = !plan_.error || result_.noise_floor.mean <= result_.limit;
     if (result_.can_be_met && !(measure_rows() && reduce())) {
       return std::nullopt;
     }
@@ -168,7 +168,7 @@ class NeedsStudy {
         tried->need = kind.same_mean ? need_of_same_mean(*tried)
                                      : need_of(tried->measured.error, result_.limit);
       }
-      if (tried->need != Need::not_needed) {
+      if (tried->need != Need::not_needed || tried->measured.error.high > result_.limit) {
         taken.pop_back();
         continue;
       }

@@ -211,11 +211,12 @@ std::optional<std::vector<Trial>> run_plain(const TrialSetup& setup, const Trial
 }
 
 SampleSource doubled(SampleSource source) {
-  return [source = std::move(source)](int x, int y, std::uint32_t first,
-                                      std::span<glm::vec3> radiance) {
-    source(x, y, first, radiance);
-    for (glm::vec3& sample : radiance) {
-      sample *= 2.0f;
+  return [source = std::move(source)](std::span<SampleJob> jobs) {
+    source(jobs);
+    for (SampleJob& job : jobs) {
+      for (glm::vec3& sample : job.radiance) {
+        sample *= 2.0f;
+      }
     }
   };
 }

@@ -30,7 +30,7 @@ UniformRun::Point UniformRun::at(double Point::*cost, double value) const {
   const auto after = std::ranges::lower_bound(points_, value, {}, cost);
   Point result;
   const bool reached =
-      after != points_.end() && (after != points_.begin() || *after.*cost == value);
+      value > 0.0 && after != points_.end() && (after != points_.begin() || *after.*cost == value);
   for (const auto number : point_numbers) {
     result.*number = std::numeric_limits<double>::quiet_NaN();
   }

@@ -25,7 +25,8 @@ class UniformRun {
   /// By what it cost, rising.
   explicit UniformRun(std::vector<Point> points) : points_(std::move(points)) {}
 
-  /// Between two passes straight from one to the other; NaN before the first and past the last.
+  /// Between two passes straight from one to the other; NaN before the first and past the last,
+  /// and where it cost nothing: nobody traces rays for a distribution.
   Point at(double Point::*cost, double value) const;
   /// Of all samples that it took.
   const Point& last() const { return points_.back(); }
