@@ -11,6 +11,7 @@
 #include "renderer/measure/energy.h"
 #include "renderer/measure/error_curve.h"
 #include "renderer/measure/top_share.h"
+#include "renderer/study/scaled_radiance.h"
 
 namespace quartet {
 namespace {
@@ -30,24 +31,6 @@ std::size_t index_of(RegionId id) {
 const glm::vec3 weighing =
     report_weights / glm::vec3(luminance(1.0f, 0.0f, 0.0f), luminance(0.0f, 1.0f, 0.0f),
                                luminance(0.0f, 0.0f, 1.0f));
-
-SampleSource weighed(SampleSource source) {
-  return [source = std::move(source)](std::span<SampleJob> jobs) {
-    source(jobs);
-    for (SampleJob& job : jobs) {
-      for (glm::vec3& sample : job.radiance) {
-        sample *= weighing;
-      }
-    }
-  };
-}
-
-RadianceImage scaled(RadianceImage picture, const glm::vec3& factor) {
-  for (glm::vec3& pixel : picture.pixels()) {
-    pixel *= factor;
-  }
-  return picture;
-}
 
 /// Follows one run pass by pass and sees what the pass after a firefly does about it.
 class FireflyWatch {
@@ -166,7 +149,7 @@ class ClaimLab {
       : world_(world),
         regions_(region_of_pixel),
         stop_(std::move(stop)),
-        source_(weighed(world.source(seed))),
+        source_(scaled(world.source(seed), weighing)),
         weighed_truth_(scaled(*world.reference, weighing)),
         lab_(source_, world.width, world.height, std::span(&uniform_, 1),
              lab_options(world, seed)) {}

@@ -7,6 +7,7 @@
 #include "renderer/adaptive/lab.h"
 #include "renderer/adaptive/run_lab.h"
 #include "renderer/study/calibrate.h"
+#include "renderer/study/scaled_radiance.h"
 #include "renderer/study/stability/uniform_run.h"
 
 namespace quartet {
@@ -210,26 +211,6 @@ std::optional<std::vector<Trial>> run_plain(const TrialSetup& setup, const Trial
   return trials;
 }
 
-SampleSource doubled(SampleSource source) {
-  return [source = std::move(source)](std::span<SampleJob> jobs) {
-    source(jobs);
-    for (SampleJob& job : jobs) {
-      for (glm::vec3& sample : job.radiance) {
-        sample *= 2.0f;
-      }
-    }
-  };
-}
-
-Truth doubled(Truth truth) {
-  RadianceImage image = *truth.image;
-  for (glm::vec3& pixel : image.pixels()) {
-    pixel *= 2.0f;
-  }
-  truth.image = std::make_shared<const RadianceImage>(std::move(image));
-  return truth;
-}
-
 /// The mean of each 2×2 pixels: with a box for a filter, what a picture of half the size shows of
 /// the same samples.
 RadianceImage shrunk(const RadianceImage& image) {
@@ -283,9 +264,10 @@ std::optional<std::vector<Trial>> run_trials(const TrialSetup& setup, std::uint3
                          setup.judgement, seed};
   auto trials = run_plain(setup, world, stop);
   if (trials && seed < other_seeds) {
-    Judgement judgement = setup.judgement;
-    judgement.truth = doubled(judgement.truth);
-    const TrialWorld brighter{doubled(world.source), {}, judgement, seed};
+    const glm::vec3 twice(2.0f);
+    TrialWorld brighter{scaled(world.source, twice), {}, setup.judgement, seed};
+    brighter.judgement.truth.image =
+        std::make_shared<const RadianceImage>(scaled(*setup.judgement.truth.image, twice));
     const bool ended =
         run_varied(setup, varied_entries(setup, oracle_of(setup), Variation::exposure), brighter,
                    stop, *trials) &&
