@@ -2,22 +2,15 @@
 
 #include "renderer/adaptive/estimators/each_pixel.h"
 #include "renderer/adaptive/estimators/estimator_rows.h"
+#include "renderer/base/math/lot.h"
 
 // Mistakes made on purpose: a study that does not find them finds nothing.
 
 namespace quartet {
 namespace {
 
-/// A number in [0, 1) that belongs to the pixel: the finaliser of SplitMix64.
-double drawn(std::size_t pixel) {
-  std::uint64_t x = (std::uint64_t(pixel) + 1) * 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return double((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
-
 void draw_lots(const EstimatorInput& input, std::span<float> error) {
-  each_judged_pixel(input, error, [](std::size_t i, std::uint32_t) { return drawn(i); });
+  each_judged_pixel(input, error, [](std::size_t i, std::uint32_t) { return lot(i, 0); });
 }
 
 void never_end(const EstimatorInput& /*input*/, std::span<float> error) {

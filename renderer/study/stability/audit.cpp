@@ -4,19 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "renderer/base/math/lot.h"
 #include "renderer/base/parallel.h"
 #include "renderer/trace/store/running_mean.h"
 
 namespace quartet {
 namespace {
-
-/// A number in [0, 1) that belongs to (pixel, seed): the finaliser of SplitMix64.
-double lot(std::size_t pixel, std::uint64_t seed) {
-  std::uint64_t x = seed ^ ((pixel + 1) * 0x9e3779b97f4a7c15u);
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return double((x ^ (x >> 31)) >> 11) * 0x1p-53;
-}
 
 /// Welford 1962, without what no film would take.
 void look(const SampleSource& hidden, int x, int y, std::uint32_t samples, Audit::Pixel& pixel) {
