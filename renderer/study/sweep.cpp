@@ -182,11 +182,7 @@ std::optional<std::vector<Measurement>> run_baseline(Experiment& experiment, con
   run.measure_at = MeasureAt::powers_of_two;
   run.also_at = std::move(found.measured);
   add_to(sums.uniform, sums, experiment, run);
-  auto measured = experiment.run(run, stop, tell);
-  if (measured) {
-    add_end(sums.uniform, sums, experiment);
-  }
-  return measured;
+  return experiment.run(run, stop, tell);
 }
 
 std::vector<float> true_squared_error(const Experiment& experiment) {

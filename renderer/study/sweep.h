@@ -74,7 +74,7 @@ struct SweepResult {
   /// runs ended, and at its end.
   std::vector<std::vector<Measurement>> uniform;
   std::vector<SweepParts> parts;  ///< of each line; empty if no metric is a mean of squares
-  SweepParts uniform_parts;
+  SweepParts uniform_parts;       ///< on the way alone: seeds end after different passes
   /// What the pictures that the parts are made of take in memory, and whether that was more than
   /// LabOptions::memory, so that there are none on the way.
   std::size_t bytes_of_parts = 0;
