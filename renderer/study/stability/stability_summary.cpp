@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -31,10 +32,13 @@ Trials select(const CaseResult& result, const Kind& kind) {
   return trials;
 }
 
-std::vector<double> values_of(const Trials& trials, double Outcome::*value) {
+/// What a member or a function says of each outcome.
+template <class Value>
+std::vector<double> values_of(const Trials& trials, const Value& value) {
   std::vector<double> values;
+  values.reserve(trials.size());
   for (const auto& [seed, trial] : trials) {
-    values.push_back(trial->outcome.*value);
+    values.push_back(std::invoke(value, trial->outcome));
   }
   return values;
 }
@@ -47,14 +51,6 @@ double spread_of(const std::vector<double>& values) {
     squares += (value - mean) * (value - mean);
   }
   return mean > 0.0 ? std::sqrt(squares / double(values.size() - 1)) / mean : 0.0;
-}
-
-Finding judge_trials(const Rule& rule, const Trials& trials, double p) {
-  std::vector<double> effects;
-  for (const auto& [seed, trial] : trials) {
-    effects.push_back(rule.effect(trial->outcome));
-  }
-  return judge(rule, effects, p);
 }
 
 /// In relation to the plain experiment with the same seeds.
@@ -111,7 +107,7 @@ Cell cell_of(const CaseResult& result, const Subject& subject, Terms terms, cons
   cell.terms = terms;
   for (const Rule& rule : rules()) {
     if (rule.applies(subject, terms)) {
-      cell.findings.push_back(judge_trials(rule, trials, p));
+      cell.findings.push_back(judge(rule, values_of(trials, rule.effect), p));
     }
   }
   for (const OutcomeColumn& column : outcome_columns()) {
@@ -125,7 +121,8 @@ Cell cell_of(const CaseResult& result, const Subject& subject, Terms terms, cons
   const Trials twins =
       select(result, {.subject = subject.id, .terms = terms, .mode = SampleMode::unbiased});
   if (!twins.empty()) {
-    cell.twin = judge_trials(rules().front(), twins, p);
+    const Rule& bias = rules().front();
+    cell.twin = judge(bias, values_of(twins, bias.effect), p);
     cell.price = mean_of(values_of(twins, &Outcome::mean_spp)) /
                  mean_of(values_of(trials, &Outcome::mean_spp));
   }
