@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/options/number_option.h"
+#include "app/options/optional_file.h"
 #include "app/options/output_check.h"
 #include "app/options/reference_option.h"
 #include "app/options/run_options.h"
@@ -12,7 +13,6 @@
 #include "app/records/rejected_report.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
-#include "renderer/files/staged_files.h"
 
 namespace quartet {
 namespace {
@@ -33,11 +33,7 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
   run.lab.statistics = {};
   // Before the long part: whether it is the report's scene, and whether the file can be written.
   const std::vector<RegionId> region_of_pixel = find_regions(*run.scene, run.settings);
-  const std::filesystem::path csv = options.csv;
-  std::optional<StagedFiles> files;
-  if (!csv.empty()) {
-    files.emplace(csv.parent_path(), std::vector{csv.filename().string()});
-  }
+  OptionalFile csv(options.csv);
   const std::shared_ptr<const Reference> reference =
       chosen_or_made(options.reference, run, options.reference_spp, program.command_line);
   const SampleWorld world = sample_world(run.scene, run.settings, run.lab, image_of(reference));
@@ -53,9 +49,7 @@ void run_claims(const ClaimsOptions& options, const Program& program) {
     throw Interrupted();
   }
   const ClaimsReport report{run, *data, options.passes, reference->spp, program.command_line};
-  if (files) {
-    files->finish([&] { files->write(csv.filename().string(), claims_csv(report)); });
-  }
+  csv.write([&] { return claims_csv(report); });
   fmt::print("{}", options.json ? claims_json(report) : claims_text(report));
   report_rejected(data->rejected, options.run, run.scene, run.settings);
   tell_if_partial(data->partial, options.run);

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/options/add_once.h"
 #include "app/options/number_option.h"
+#include "app/options/optional_file.h"
 #include "app/options/run_options.h"
 #include "app/options/usage_error.h"
 #include "app/records/needs_files.h"
@@ -54,10 +55,7 @@ NeedsPlan needs_plan(const NeedsOptions& options) {
                     given, row.unit));
   }
   for (const std::string& id : options.parts) {
-    const PartId key = find_part(id).key;
-    if (std::ranges::find(plan.parts, key) == plan.parts.end()) {
-      plan.parts.push_back(key);
-    }
+    add_once(plan.parts, find_part(id).key);
   }
   for (const Part& row : parts()) {
     if (options.parts.empty()) {
@@ -111,11 +109,7 @@ void run_needs_command(const NeedsOptions& options, const Program& program) {
   if (!options.out.empty()) {
     files.emplace(options.out, needs_file_names());
   }
-  const std::filesystem::path csv = options.csv;
-  std::optional<StagedFiles> table;
-  if (!csv.empty()) {
-    table.emplace(csv.parent_path(), std::vector{csv.filename().string()});
-  }
+  OptionalFile csv(options.csv);
   std::optional<NeedsResult> result;
   {
     const Interrupt interrupt;
@@ -134,9 +128,7 @@ void run_needs_command(const NeedsOptions& options, const Program& program) {
     throw std::runtime_error(cannot_be_met(plan, *result));
   }
   const NeedsReport report{run, plan, *result, program.command_line};
-  if (table) {
-    table->finish([&] { table->write(csv.filename().string(), needs_csv(report)); });
-  }
+  csv.write([&] { return needs_csv(report); });
   if (files) {
     files->finish([&] { write_needs_files(*files, report); });
   }

@@ -7,6 +7,7 @@
 
 #include <tbb/task_arena.h>
 #include "app/commands/commands.h"
+#include "app/options/add_once.h"
 #include "app/options/number_option.h"
 #include "app/options/output_check.h"
 #include "app/options/run_options.h"
@@ -32,14 +33,6 @@ struct StabilityCommand {
   RunOptions run;  // its sampler and threads
   std::string out;
 };
-
-/// The study finds its rows again by their ids, so that each may be there once.
-template <class T>
-void add_once(std::vector<T>& list, T value) {
-  if (std::ranges::find(list, value) == list.end()) {
-    list.push_back(value);
-  }
-}
 
 StabilityOptions options_of(const StabilityCommand& command) {
   StabilityOptions options;

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <span>
 
 #include "app/commands/commands.h"
+#include "app/options/add_once.h"
 #include "app/options/lane_option.h"
 #include "app/options/number_option.h"
 #include "app/options/output_check.h"
@@ -84,10 +84,7 @@ std::vector<LaneSettings> sweep_lanes(const SweepOptions& options, const StopCon
   // the truth, so that it is seen how much there is to gain; and what loses light by design, so
   // that a gain of that kind is known when it is seen.
   for (const EstimatorId key : {EstimatorId::oracle, EstimatorId::uniform_clamp}) {
-    const std::string id(estimator(key).id);
-    if (std::ranges::find(lanes.estimators, id) == lanes.estimators.end()) {
-      lanes.estimators.push_back(id);
-    }
+    add_once(lanes.estimators, std::string(estimator(key).id));
   }
   std::vector<LaneSettings> lane_settings =
       settings_of_lanes(lanes, options.run.lane_settings, stop);

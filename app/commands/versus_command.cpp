@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/options/lane_option.h"
 #include "app/options/number_option.h"
+#include "app/options/optional_file.h"
 #include "app/options/reference_option.h"
 #include "app/options/run_options.h"
 #include "app/options/stop_options.h"
@@ -15,7 +16,6 @@
 #include "app/records/versus_files.h"
 #include "app/terminal/interrupt.h"
 #include "app/terminal/progress.h"
-#include "renderer/files/staged_files.h"
 
 namespace quartet {
 namespace {
@@ -82,11 +82,7 @@ void run_versus_command(const VersusOptions& options, const Program& program) {
   Run run = prepare_run(options.run, 2);
   check_rays({.rays = options.rays}, run.scene->scene());
   run.lab.statistics = {};
-  const std::filesystem::path csv = options.csv;
-  std::optional<StagedFiles> files;
-  if (!csv.empty()) {
-    files.emplace(csv.parent_path(), std::vector{csv.filename().string()});
-  }
+  OptionalFile csv(options.csv);
   const std::shared_ptr<const Reference> reference =
       chosen_or_made(options.reference, run, options.reference_spp, program.command_line);
   const SampleWorld world = sample_world(run.scene, run.settings, run.lab, image_of(reference));
@@ -107,9 +103,7 @@ void run_versus_command(const VersusOptions& options, const Program& program) {
                             .confidence = options.confidence,
                             .noise_floor = reference->noise_floor(MetricId::mse),
                             .command_line = program.command_line};
-  if (files) {
-    files->finish([&] { files->write(csv.filename().string(), versus_csv(report)); });
-  }
+  csv.write([&] { return versus_csv(report); });
   if (options.json) {
     fmt::print("{}\n", versus_json(report));
   } else {

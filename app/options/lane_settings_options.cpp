@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "app/options/add_once.h"
 #include "app/options/usage_error.h"
 #include "renderer/adaptive/estimators/estimator.h"
 
@@ -260,10 +261,7 @@ std::string runs_text(const LaneSettings& settings) {
 std::string all_runs_text(std::span<const ChosenLane> lanes) {
   std::vector<std::string> texts;
   for (const ChosenLane& lane : lanes) {
-    const std::string text = runs_text(lane.settings);
-    if (std::ranges::find(texts, text) == texts.end()) {
-      texts.push_back(text);
-    }
+    add_once(texts, runs_text(lane.settings));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/records/csv_field.h"
+#include "app/records/interval_text.h"
 #include "app/records/json_text.h"
 #include "renderer/base/number_text.h"
 #include "renderer/base/version.h"
@@ -35,14 +36,6 @@ std::string_view need_id(const NeedsRow& row) {
 std::string short_interval(const Interval& interval) {
   return fmt::format("{} ({} to {})", format_number(interval.mean), format_number(interval.low),
                      format_number(interval.high));
-}
-
-std::string percent_interval(const Interval& share) {
-  if (std::isnan(share.mean)) {
-    return "–";
-  }
-  return fmt::format("{:+.2f} % ({:+.2f} to {:+.2f})", 100.0 * share.mean, 100.0 * share.low,
-                     100.0 * share.high);
 }
 
 std::string ratio_number(double ratio) {
@@ -100,7 +93,7 @@ std::string row_text(const std::string& label, const NeedsRow& row, std::string_
   return fmt::format("{:<32} {:>6} {:>7} {:>8} {:>32} {:>28} {:>12}\n", label,
                      ratio_number(row.rays_ratio), ratio_number(row.seconds_ratio),
                      format_number(row.measured.variance.mean), short_interval(row.measured.error),
-                     percent_interval(row.measured.energy), need);
+                     percent_text(row.measured.energy), need);
 }
 
 ordered_json row_json(const NeedsRow& row) {
@@ -147,7 +140,7 @@ std::string needs_sentence(const NeedsReport& report) {
       "The smallest model found: {}. Its {} is {}, below {}; energy {}; it takes {} × the rays and "
       "{} × the time.",
       row.simplification.label, metric(report.plan.metric).id, short_interval(row.measured.error),
-      limit_name(report), percent_interval(row.measured.energy), ratio_number(row.rays_ratio),
+      limit_name(report), percent_text(row.measured.energy), ratio_number(row.rays_ratio),
       ratio_number(row.seconds_ratio));
   if (result.smallest_model.integrator != report.run.settings.integrator) {
     text += fmt::format(" Render it with --integrator {}.",
@@ -260,10 +253,7 @@ std::string needs_csv(const NeedsReport& report) {
 void write_needs_files(StagedFiles& files, const NeedsReport& report) {
   files.write("needs.csv", needs_csv(report));
   files.write("needs.json", needs_json(report) + "\n");
-  const ChartFigure figure = needs_figure(report);
-  write_chart_png(figure, files.stage("needs.png"));
-  write_chart_pdf(figure, files.stage("needs.pdf"));
-  write_chart_svg(figure, files.stage("needs.svg"));
+  write_chart_files(files, "needs", needs_figure(report));
   for (const SceneFile& file : scene_files(report.result.smallest_model.scene, "smallest")) {
     files.write(file.name, file.text);
   }

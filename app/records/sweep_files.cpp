@@ -65,12 +65,6 @@ std::string metric_text(const SweepReport& report) {
   return text;
 }
 
-void write_figure(StagedFiles& files, const std::string& name, const ChartFigure& figure) {
-  write_chart_png(figure, files.stage(name + ".png"));
-  write_chart_pdf(figure, files.stage(name + ".pdf"));
-  write_chart_svg(figure, files.stage(name + ".svg"));
-}
-
 /// Rows of what the seeds of a line say together, with one beginning.
 class JointRows {
  public:
@@ -191,7 +185,7 @@ void write_sweep_files(StagedFiles& files, const SweepReport& report) {
       "A mark is a pass. Bias² is without its own noise, and may come out below 0: its line leaves "
       "at "
       "the bottom.");
-  write_figure(files, "sweep", sweep);
+  write_chart_files(files, "sweep", sweep);
   ChartFigure thresholds = figure_of(report, "each estimator at fixed thresholds");
   thresholds.charts = threshold_charts(report.summary, report.effort);
   make_small(thresholds);
@@ -199,14 +193,14 @@ void write_sweep_files(StagedFiles& files, const SweepReport& report) {
   thresholds.lines.emplace_back(
       "A line is a lane over its passes, its label the factor on the default thresholds; unbiased "
       "lanes are charged with their pilots.");
-  write_figure(files, "thresholds", thresholds);
+  write_chart_files(files, "thresholds", thresholds);
   ChartFigure calibration = figure_of(report, "what the error estimators know");
   calibration.charts = calibration_charts(report.result);
   make_small(calibration);
   calibration.lines.emplace_back(
       "At the default thresholds with the first seed; each mark is the mean of a 32nd of the "
       "pixels.");
-  write_figure(files, "calibration", calibration);
+  write_chart_files(files, "calibration", calibration);
 }
 
 }  // namespace quartet

@@ -317,4 +317,10 @@ void write_chart_svg(const ChartFigure& figure, const std::filesystem::path& pat
   write_page_svg(page_of(figure), path);
 }
 
+void write_chart_files(StagedFiles& files, const std::string& name, const ChartFigure& figure) {
+  write_chart_png(figure, files.stage(name + ".png"));
+  write_chart_pdf(figure, files.stage(name + ".pdf"));
+  write_chart_svg(figure, files.stage(name + ".svg"));
+}
+
 }  // namespace quartet

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/files/staged_files.h"
 #include "renderer/view/chart.h"
 
 namespace quartet {
@@ -26,5 +27,7 @@ struct ChartFigure {
 void write_chart_png(const ChartFigure& figure, const std::filesystem::path& path);
 void write_chart_pdf(const ChartFigure& figure, const std::filesystem::path& path);
 void write_chart_svg(const ChartFigure& figure, const std::filesystem::path& path);
+/// As `name`.png, .pdf and .svg.
+void write_chart_files(StagedFiles& files, const std::string& name, const ChartFigure& figure);
 
 }  // namespace quartet
